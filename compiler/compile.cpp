@@ -22,6 +22,7 @@
 #include "lower/drop_unread.hpp"
 #include "lower/roll.hpp"
 #include "lower/shed.hpp"
+#include "lower/spell_out.hpp"
 #include "network/port_units.hpp"
 #include "slip_choice.hpp"
 #include "syntax/parse_network.hpp"
@@ -175,6 +176,7 @@ void certify_law(Compilation& c, const Choices& choices) {
   }
   if (c.certificate.limits.rule == LimitRule::sheds)
     c.law = with_shedding(std::move(c.law), reach_of(c.certificate.loop, choices.scalar), c.network.port_motion);
+  c.law = spelled_out(std::move(c.law), c.network.port_motion);
 }
 
 }  // namespace

@@ -614,7 +614,7 @@ std::string why_not_certified(const AxesCertificate& c, const AxesDevice& device
   if (!c.is_proved) return c.reason;
   if (!c.uncovered.empty()) return c.uncovered;
   if (!std::isfinite(c.missing)) return "it needs more damping at the joints than can be computed";
-  return at_joints(c.missing, c, device) + " of damping are missing at the joints, more than its brakes can give";
+  return at_joints(c.missing, c, device) + " of damping are missing at the joints, more than its brakes have left";
 }
 
 namespace {

@@ -16,8 +16,8 @@ class BoxEnergy : private BoxNumbers {
 
   // Every relaxation gives no more work than its spring stores, wherever it is in the box.
   bool relaxations_give_no_energy() const {
-    return std::all_of(tables_.parts.begin(), tables_.parts.end(), [&](const tunable_part& part) {
-      if (part.kind != tunable_kind::relaxation) return true;
+    return std::all_of(tables_.parts.begin(), tables_.parts.end(), [&](const BlockPart& part) {
+      if (part.kind != PartKind::relaxation) return true;
       if (const auto& fixed = tables_.fixed[static_cast<std::size_t>(part.spring)])
         return gives_no_energy(Rational(fixed->loss), Rational(fixed->share));
       if (!tables_.is_exact) return true;  // (1 − φ)² + φ² ≤ 1, φ of 0 … 1

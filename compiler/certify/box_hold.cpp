@@ -20,17 +20,18 @@ class Held : private BoxNumbers {
 
   BoxHold find(bool sheds) const {
     BoxHold hold;
-    const tunable_block<double>& block = tables_.blocks.front();
+    const TunableBlock& block = tables_.blocks.front();
     for (int i = block.first_part; i < block.first_part + block.part_count; ++i) {
-      const tunable_part& part = tables_.parts[static_cast<std::size_t>(i)];
-      hold.has_meshes = hold.has_meshes || part.kind == tunable_kind::mesh;
-      if (part.kind == tunable_kind::relaxation) hold.relaxations.push_back(relaxation(part));
-      if (part.kind != tunable_kind::spring) continue;
+      const BlockPart& part = tables_.parts[static_cast<std::size_t>(i)];
+      hold.has_meshes = hold.has_meshes || part.kind == PartKind::mesh;
+      if (part.kind == PartKind::relaxation) hold.relaxations.push_back(relaxation(part));
+      if (part.kind != PartKind::spring) continue;
       hold.static_stiffness = largest(stiffness(part.spring));
       if (sheds || is_tunable(stiffness(part.spring))) hold.static_slack = tables_.head.map.largest_change;
     }
-    for (int i = 0; i < tables_.head.spring_count; ++i) hold.can_soften = hold.can_soften || is_tunable(stiffness(i));
-    for (const tunable_yield<double>& yield : tables_.yields) hold.yield_forces += largest_yield(yield);
+    for (int i = 0; i < static_cast<int>(tables_.springs.size()); ++i)
+      hold.can_soften = hold.can_soften || is_tunable(stiffness(i));
+    for (const TunableYield& yield : tables_.yields) hold.yield_forces += largest_yield(yield);
     return hold;
   }
 
@@ -42,7 +43,7 @@ class Held : private BoxNumbers {
   }
 
   // All rise with k and with b, but the last, which is b/T.
-  HeldRelaxation relaxation(const tunable_part& part) const {
+  HeldRelaxation relaxation(const BlockPart& part) const {
     const Affine spring = stiffness(part.spring);
     const double k = largest(spring), b = largest(number(part.damping));
     if (const auto& fixed = tables_.fixed[static_cast<std::size_t>(part.spring)])
@@ -76,7 +77,7 @@ class Held : private BoxNumbers {
             k, k * share / loss * margin_};
   }
 
-  double largest_yield(const tunable_yield<double>& yield) const {
+  double largest_yield(const TunableYield& yield) const {
     double weakest = infinite;
     for (int i = yield.first_cut; i < yield.first_cut + yield.cut_count; ++i)
       weakest = std::min(weakest, largest(number(tables_.cuts[static_cast<std::size_t>(i)])));

@@ -64,36 +64,36 @@ class Box : private BoxNumbers {
   static BoxMotor nothing_for(std::string reason) { return {0, 0, 0, std::move(reason)}; }
 
   template <class Visit>
-  void each_part(const tunable_block<double>& block, Visit visit) const {
+  void each_part(const TunableBlock& block, Visit visit) const {
     for (int i = block.first_part; i < block.first_part + block.part_count; ++i)
       visit(tables_.parts[static_cast<std::size_t>(i)]);
   }
 
-  BoxCut cut_of(const tunable_part& part) const {
+  BoxCut cut_of(const BlockPart& part) const {
     switch (part.kind) {
-      case tunable_kind::damper: return {{}, number(part.damping)};
-      case tunable_kind::spring: return {plus({}, stiffness(part.spring), half_), {}};
-      case tunable_kind::relaxation: return {plus({}, stiffness(part.spring), hold_of(part)), {}};
-      case tunable_kind::mesh: break;
+      case PartKind::damper: return {{}, number(part.damping)};
+      case PartKind::spring: return {plus({}, stiffness(part.spring), half_), {}};
+      case PartKind::relaxation: return {plus({}, stiffness(part.spring), hold_of(part)), {}};
+      case PartKind::mesh: break;
     }
     return cut_at_port(part);
   }
 
-  const std::optional<FixedRelaxation>& fixed(const tunable_part& part) const {
+  const std::optional<FixedRelaxation>& fixed(const BlockPart& part) const {
     return tables_.fixed[static_cast<std::size_t>(part.spring)];
   }
 
   // ψ of a relaxation, that of the worst where it can be tuned.
-  Rational hold_of(const tunable_part& part) const {
+  Rational hold_of(const BlockPart& part) const {
     if (fixed(part)) return Rational(relaxation_hold(fixed(part)->share, fixed(part)->loss));
     return tables_.is_exact ? Rational(largest_relaxation_hold) : half_;
   }
 
   // The mesh's own edges at the port's side.
-  BoxCut cut_at_port(const tunable_part& part) const {
+  BoxCut cut_at_port(const BlockPart& part) const {
     BoxCut cut;
     for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
-      const tunable_edge& edge = tables_.edges[static_cast<std::size_t>(i)];
+      const MeshEdge& edge = tables_.edges[static_cast<std::size_t>(i)];
       if ((edge.from == mesh_port) == (edge.to == mesh_port)) continue;
       if (edge.spring != no_index) cut.stiffness = plus(cut.stiffness, stiffness(edge.spring), half_);
       else cut.damping = plus(cut.damping, number(edge.damping));
@@ -101,9 +101,9 @@ class Box : private BoxNumbers {
     return cut;
   }
 
-  BoxCut cut_of(const tunable_block<double>& block) const {
+  BoxCut cut_of(const TunableBlock& block) const {
     BoxCut cut;
-    each_part(block, [&](const tunable_part& part) { cut = plus(cut, cut_of(part)); });
+    each_part(block, [&](const BlockPart& part) { cut = plus(cut, cut_of(part)); });
     return cut;
   }
 
@@ -120,7 +120,7 @@ class Box : private BoxNumbers {
   }
 
   // As least_cut() of a tree, by what a cut asks for at the box's far corner.
-  std::optional<BoxCut> least_cut(const tunable_coupling& coupling, int index) const {
+  std::optional<BoxCut> least_cut(const TunableCoupling& coupling, int index) const {
     const slip_node<double>& node = tables_.nodes[static_cast<std::size_t>(coupling.first_node + index)];
     if (node.kind == slip_part::slip) return std::nullopt;
     if (node.kind == slip_part::block) return bounded_cut(coupling.first_block + node.place);
@@ -135,14 +135,14 @@ class Box : private BoxNumbers {
 
   // Of slips in no tree the least of all ways to take ends to the tool's side, no slip between the sides. There is one:
   // no path of slips alone joins tool and ground.
-  BoxCut least_cut(const tunable_graph& graph) const {
+  BoxCut least_cut(const TunableGraph& graph) const {
     std::vector<BoxCut> cuts;
     std::vector<double> costs;  // rounded: any cut will do, if not quite the least
     for (int i = 0; i < graph.tie_count; ++i) {
       cuts.push_back(bounded_cut(graph.first_block + i));
       costs.push_back(cost(cuts.back()).convert_to<double>());
     }
-    const auto separates = [&](unsigned at_tool, const tunable_ends& ends) {
+    const auto separates = [&](unsigned at_tool, const TunableEnds& ends) {
       const auto is_at_tool = [&](int end) {
         return end == graph.end_count || (end < graph.end_count && (at_tool >> end & 1u) != 0);
       };
@@ -167,7 +167,7 @@ class Box : private BoxNumbers {
     return cut;
   }
 
-  const tunable_ends& tie(const tunable_graph& graph, std::size_t i) const {
+  const TunableEnds& tie(const TunableGraph& graph, std::size_t i) const {
     return tables_.ties[static_cast<std::size_t>(graph.first_tie) + i];
   }
 
@@ -175,11 +175,11 @@ class Box : private BoxNumbers {
   // none of its nodes is between.
   Affine needed() const {
     BoxCut cut;
-    each_part(tables_.blocks.front(), [&](const tunable_part& part) {
-      if (part.kind != tunable_kind::damper) cut = plus(cut, cut_of(part));
+    each_part(tables_.blocks.front(), [&](const BlockPart& part) {
+      if (part.kind != PartKind::damper) cut = plus(cut, cut_of(part));
     });
-    for (const tunable_coupling& coupling : tables_.couplings) cut = plus(cut, least_cut(coupling, 0).value());
-    for (const tunable_graph& graph : tables_.graphs) cut = plus(cut, least_cut(graph));
+    for (const TunableCoupling& coupling : tables_.couplings) cut = plus(cut, least_cut(coupling, 0).value());
+    for (const TunableGraph& graph : tables_.graphs) cut = plus(cut, least_cut(graph));
     const Rational margin = 1 + 64 * Rational(unit_roundoff(scalar_));  // of the numbers that set() works out
     const Affine all = plus(plus({}, cut.stiffness, period_ * squared_lateness()), cut.damping);
     return plus({}, all, loop_.hold * margin);
@@ -188,31 +188,30 @@ class Box : private BoxNumbers {
   // b∞: the dampers between tool and ground. A mesh's is between nothing and its dampers at the port.
   Affine feedthrough() const {
     Affine sum;
-    each_part(tables_.blocks.front(), [&](const tunable_part& part) {
-      if (part.kind == tunable_kind::damper) sum = plus(sum, number(part.damping));
+    each_part(tables_.blocks.front(), [&](const BlockPart& part) {
+      if (part.kind == PartKind::damper) sum = plus(sum, number(part.damping));
     });
     return sum;
   }
   Affine of_meshes() const {
     Affine sum;
-    each_part(tables_.blocks.front(), [&](const tunable_part& part) {
-      if (part.kind == tunable_kind::mesh) sum = plus(sum, cut_at_port(part).damping);
+    each_part(tables_.blocks.front(), [&](const BlockPart& part) {
+      if (part.kind == PartKind::mesh) sum = plus(sum, cut_at_port(part).damping);
     });
     return sum;
   }
   // Z(0) of what is no mesh.
   Affine zero_frequency() const {
     Affine sum = feedthrough();
-    each_part(tables_.blocks.front(), [&](const tunable_part& part) {
-      if (part.kind == tunable_kind::relaxation) sum = plus(sum, number(part.damping));
+    each_part(tables_.blocks.front(), [&](const BlockPart& part) {
+      if (part.kind == PartKind::relaxation) sum = plus(sum, number(part.damping));
     });
     return sum;
   }
 
   bool has_meshes() const {
     bool found = false;
-    each_part(tables_.blocks.front(),
-              [&](const tunable_part& part) { found = found || part.kind == tunable_kind::mesh; });
+    each_part(tables_.blocks.front(), [&](const BlockPart& part) { found = found || part.kind == PartKind::mesh; });
     return found;
   }
 
@@ -220,7 +219,7 @@ class Box : private BoxNumbers {
   Rational largest_behind_slips() const {
     Rational sum = 0;
     for (std::size_t i = 1; tables_.head.slip_rule.takes_part && i < tables_.blocks.size(); ++i)
-      each_part(tables_.blocks[i], [&](const tunable_part& part) { sum += most(cut_of(part).damping); });
+      each_part(tables_.blocks[i], [&](const BlockPart& part) { sum += most(cut_of(part).damping); });
     return sum;
   }
 
@@ -256,16 +255,16 @@ class Box : private BoxNumbers {
 
   // Σ|h_j| of a block: k, 2 c ≤ 2 k of a relaxation, and of a mesh no more than twice what its edges at the port answer
   // within a sample, as its inner nodes held fast would.
-  Affine gain_of(const tunable_block<double>& block, bool with_dampers) const {
+  Affine gain_of(const TunableBlock& block, bool with_dampers) const {
     Affine sum;
-    each_part(block, [&](const tunable_part& part) {
+    each_part(block, [&](const BlockPart& part) {
       switch (part.kind) {
-        case tunable_kind::spring: sum = plus(sum, stiffness(part.spring)); break;
-        case tunable_kind::relaxation:
+        case PartKind::spring: sum = plus(sum, stiffness(part.spring)); break;
+        case PartKind::relaxation:
           sum = plus(sum, stiffness(part.spring), fixed(part) ? 2 * Rational(fixed(part)->share) : Rational(2));
           break;
-        case tunable_kind::damper: sum = with_dampers ? plus(sum, number(part.damping), 2 / period_) : sum; break;
-        case tunable_kind::mesh: {
+        case PartKind::damper: sum = with_dampers ? plus(sum, number(part.damping), 2 / period_) : sum; break;
+        case PartKind::mesh: {
           const BoxCut cut = cut_at_port(part);
           sum = plus(plus(sum, cut.stiffness, 4), cut.damping, 2 / period_);
         }
@@ -274,17 +273,17 @@ class Box : private BoxNumbers {
     return sum;
   }
 
-  const slip_node<double>& node_of(const tunable_coupling& coupling, int index) const {
+  const slip_node<double>& node_of(const TunableCoupling& coupling, int index) const {
     return tables_.nodes[static_cast<std::size_t>(coupling.first_node + index)];
   }
 
   // What one of its slips alone holds while none gives way: the least yield force over the box, of the strongest such
   // slip. Empty where it does not hold rigidly.
-  std::optional<Rational> hold_of(const tunable_coupling& coupling, int index) const {
+  std::optional<Rational> hold_of(const TunableCoupling& coupling, int index) const {
     const slip_node<double>& node = node_of(coupling, index);
     if (node.kind == slip_part::block) return std::nullopt;
     if (node.kind == slip_part::slip) {
-      const tunable_yield<double>& yield = tables_.yields[static_cast<std::size_t>(coupling.first_slip + node.place)];
+      const TunableYield& yield = tables_.yields[static_cast<std::size_t>(coupling.first_slip + node.place)];
       std::optional<Rational> least_cut;
       for (int i = yield.first_cut; i < yield.first_cut + yield.cut_count; ++i) {
         const Rational cut = least(number(tables_.cuts[static_cast<std::size_t>(i)]));
@@ -306,7 +305,7 @@ class Box : private BoxNumbers {
 
   // Of one block in series with what holds rigidly; empty for anything else, and where the encoder's step makes a slip
   // give way.
-  std::optional<Rational> gain_of(const tunable_coupling& coupling) const {
+  std::optional<Rational> gain_of(const TunableCoupling& coupling) const {
     const slip_node<double>& root = node_of(coupling, 0);
     if (root.kind != slip_part::series) return std::nullopt;
     int blocks = 0, block = 0;
@@ -316,7 +315,7 @@ class Box : private BoxNumbers {
         ++blocks;
       }
     if (blocks != 1) return std::nullopt;
-    const tunable_block<double>& only = tables_.blocks[static_cast<std::size_t>(block)];
+    const TunableBlock& only = tables_.blocks[static_cast<std::size_t>(block)];
     const Rational largest = most(gain_of(only, true)) * (1 + 2 * Rational(tables_.least_share)),
                    of_step = largest * Rational(loop_.encoder_step) / 2;
     bool carried_by_slip = false, holds = true;
@@ -338,7 +337,7 @@ class Box : private BoxNumbers {
   std::optional<double> quantisation_gain(const std::vector<Affine>& brakes, const Rational& made_up) const {
     if (!tables_.graphs.empty()) return std::nullopt;
     Rational sum = most(gain_of(tables_.blocks.front(), false));
-    for (const tunable_coupling& coupling : tables_.couplings) {
+    for (const TunableCoupling& coupling : tables_.couplings) {
       const std::optional<Rational> gain = gain_of(coupling);
       if (!gain) return std::nullopt;
       sum += *gain;

@@ -16,6 +16,7 @@
 #include "discretise/rounding.hpp"
 #include "law/add_damping.hpp"
 #include "law/cost.hpp"
+#include "lower/spell_out.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -219,9 +220,12 @@ namespace {
 // Every operation of a step is off by a unit of its result, which is no larger than the sum of the terms' sizes.
 double rounding_of_step(const UpdateLaw& law) {
   const double unit = unit_roundoff(law.scalar);
-  const Cost cost = cost_of(law, law.output);
-  const std::size_t called = cost.called + cost_of(law, law.update).called;
-  return law.relative_error_bound + unit * double(cost.additions + cost.multiplications + cost.coupled + called);
+  const UpdateLaw steps = spelled_out(law, motion::translation);  // units are nothing to their number
+  const Cost cost = cost_of(steps, steps.output);
+  // Of modes the error bound knows what an update does; of springs between parameters nothing does.
+  const Cost update = law.tunable ? cost_of(steps, steps.update) : Cost{};
+  return law.relative_error_bound + unit * double(cost.additions + cost.multiplications + cost.coupled +
+                                                  update.additions + update.multiplications);
 }
 
 // What is lacking at the worst place of the box, as a need against the least brake.

@@ -11,6 +11,7 @@
 #include "linear/quasi_linear.hpp"
 #include "network/port_units.hpp"
 #include "law/cost.hpp"
+#include "law/walk.hpp"
 #include "law/evaluate.hpp"
 #include "source/wrapped_text.hpp"
 
@@ -182,7 +183,7 @@ std::string tunable_text(const UpdateLaw& law) {
          fmt::format(
              "cost at most          output {}, update {}, set {} additions, multiplications and divisions, {} states\n",
              operations_of(cost_of(law, law.output)), operations_of(cost_of(law, law.update)),
-             operations_of(cost_of(law, law.tune)) + operations_of_energy(tables), tables.springs.size());
+             operations_of(cost_of(law, set_program(law))), cost_of(law, law.output).states);
 }
 
 // What follows a label begins in the same column on every line.

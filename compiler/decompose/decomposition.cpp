@@ -254,6 +254,9 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
     if (needs_slips)
       diagnostics.report<DiagnosticCode::no_such_slip_law>(network.name_span, *name, network.name,
                                                            "it is a law for slips, and this network has none");
+    else if (*name == "diagonal")
+      diagnostics.report<DiagnosticCode::no_such_slip_law>(network.name_span, *name, network.name,
+                                                           "it is a rule for several axes, and this network has one");
     else diagnostics.report<DiagnosticCode::unknown_decomposition>(network.name_span, *name);
     return std::nullopt;
   }

@@ -269,7 +269,7 @@ std::optional<UpdateLaw> discretise_tunable(const Network& network, const Normal
                                             const PortDevice& device, Diagnostics& diagnostics) {
   const Real sample_period = 1 / Real(rate);
   UpdateLaw law = blank_law(decomposition.choice(), choices, sample_period);
-  law.tunable = tunable_tables_of(linear_part(at_default(network), form), network, form.linear, decomposition, choices,
+  law.tunable = tunable_tables_of(linear_part(at_default(network), form), network, decomposition, choices,
                                   sample_period, device, diagnostics);
   law.mode_form = ModeForm::delta;
   if (!law.tunable) return std::nullopt;

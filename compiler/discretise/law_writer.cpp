@@ -91,7 +91,10 @@ VariableId LawWriter::reads(ExpressionId expression) const {
 }
 
 VariableId LawWriter::kept(VariableId local) {
-  if (const auto known = kept_.find(local); known != kept_.end()) return known->second;
+  for (const Statement& known : law_.keep)
+    if (reads(known.value) == local &&
+        law_.variables[known.target].name == joined("sampled", law_.variables[local].name))
+      return known.target;
   Variable state = law_.variables[local];
   state.name = joined("sampled", state.name);
   for (std::string& name : state.element_names) name = joined("sampled", name);
@@ -99,7 +102,6 @@ VariableId LawWriter::kept(VariableId local) {
   state.role = Role::state;
   const VariableId id = law_.variables.add(std::move(state));
   assign(law_.keep, id, read(local), "");
-  kept_.emplace(local, id);
   return id;
 }
 

@@ -102,7 +102,6 @@ class LawWriter {
 
   UpdateLaw& law_;
   std::string length_, force_;
-  std::map<VariableId, VariableId> kept_;
   std::size_t last_bank_ = port_bank;
   std::set<std::string> taken_ = {"relaxed", "velocity", "no",    "step",
                                   "last",    "sampled",  "steady"};  // begin names of the law's own

@@ -75,11 +75,7 @@ void SlipBrake::declare(const std::string& prefix, const Names& places, const Na
       const auto one_a_place = [&](const char* what, const std::string& unit, const char* meaning, Role role) {
         return writer_.vector({slip, what}, unit, meaning, role, places_.size() > 1 ? places_ : Names{slip});
       };
-      memories_.push_back(
-          {one_a_place("slid", "1", "1 where the command takes the slip for sliding, else 0", Role::state),
-           one_a_place("slid_at", writer_.length(), "where the tool was when it last slid", Role::state),
-           one_a_place("slides_now", "1", "", Role::local),
-           one_a_place("slides_at", writer_.length(), "", Role::local)});
+      memories_.emplace_back(writer_, Real(settings_.hysteresis), one_a_place);
     }
   if (!has_way()) return;
   way_ = variable("way", "1", "w, of √(b − b_least)", Role::state);
@@ -94,32 +90,12 @@ void SlipBrake::write_output(const std::vector<ExpressionId>& slides, VariableId
   regime_of_force_ = regime_ = of_one ? slides.front() : writer_.read(write_regime("regime", slides));
   if (!memories_.empty()) {
     std::vector<ExpressionId> commanded = slides;
-    remember(commanded, position);
+    for (std::size_t i = 0; i < memories_.size(); ++i) commanded[i] = memories_[i].write_output(slides[i], position);
     regime_ = of_one ? commanded.front() : writer_.read(write_regime("commanded_regime", commanded));
   }
   if (!damping_changes()) return;
   write_damping();
   if (is_ramped()) write_compensation();
-}
-
-// For the command a slide ends where the tool has gone 1.5 steps of the encoder, to either side, and the slip not with
-// it.
-void SlipBrake::remember(std::vector<ExpressionId>& slides, VariableId position) {
-  std::vector<Statement>& output = writer_.law().output;
-  const Real reach = settings_.hysteresis;
-  const ExpressionId area =
-      writer_.constant("hysteresis_squared", writer_.length() + "²", "(1.5 steps of the encoder)²", reach * reach);
-  for (std::size_t i = 0; i < memories_.size(); ++i) {
-    const Memory& memory = memories_[i];
-    const ExpressionId gone = writer_.subtract(writer_.read(position), writer_.read(memory.at));
-    const ExpressionId still = writer_.subtract(area, writer_.multiply(gone, gone));
-    writer_.assign(output, memory.slides_now,
-                   writer_.where(slides[i], one(), writer_.where(still, writer_.read(memory.slid), none())),
-                   "for the command, sliding ends 1.5 steps of the encoder further on");
-    writer_.assign(output, memory.at_now, writer_.where(slides[i], writer_.read(position), writer_.read(memory.at)),
-                   "");
-    slides[i] = writer_.read(memory.slides_now);
-  }
 }
 
 // Σ 2^i over the slips that slide
@@ -223,10 +199,7 @@ void SlipBrake::write_update(VariableId released) {
       now = writer_.where(writer_.read(writer_.kept(released)), none(), now);
     writer_.assign(update, state, now, "");
   };
-  for (const Memory& memory : memories_) {
-    keep(memory.slid, writer_.read(writer_.kept(memory.slides_now)), false);
-    keep(memory.at, writer_.read(writer_.kept(memory.at_now)), false);
-  }
+  for (SlideMemory& memory : memories_) memory.write_update();
   if (way_ == nothing) return;
   const ExpressionId way = writer_.read(writer_.kept(way_now_));
   keep(way_, way, is_ramped());

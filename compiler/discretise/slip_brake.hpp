@@ -17,6 +17,7 @@
 
 #include "decompose/slip_decomposition.hpp"
 #include "discretise/law_writer.hpp"
+#include "discretise/slide_memory.hpp"
 
 namespace dashpot::compiler {
 
@@ -53,17 +54,10 @@ class SlipBrake {
   Real damping_at_rest() const;
 
  private:
-  struct Memory {
-    VariableId slid,
-        at;  // states: 1 where the command takes the slip for sliding; where the tool was when it last slid
-    VariableId slides_now, at_now;
-  };
-
   bool coil_lags() const { return settings_.coil_share < 1; }
   bool damping_changes() const;
   bool is_ramped() const;
   bool has_way() const { return is_ramped() || coil_lags(); }
-  void remember(std::vector<ExpressionId>& slides, VariableId position);
   VariableId write_regime(const char* what, const std::vector<ExpressionId>& slides);
   void write_damping();
   void write_way();
@@ -81,7 +75,7 @@ class SlipBrake {
   std::vector<const ComponentSplit*> splits_;  // one a place
   std::string prefix_;
   Names places_;
-  std::vector<Memory> memories_;                  // one a slip of a place
+  std::vector<SlideMemory> memories_;             // one a slip of a place
   VariableId way_ = nothing, reached_ = nothing;  // states
   VariableId damping_ = nothing, way_now_ = nothing, reached_now_ = nothing, compensation_ = nothing,
              shortfall_ = nothing;                             // locals

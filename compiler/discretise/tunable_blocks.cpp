@@ -98,6 +98,7 @@ TunableBlocks::TunableBlocks(const Network& network, const Choices& choices, con
 
 void TunableBlocks::add(const Network& network, const std::vector<std::size_t>& elements, bool is_loose) {
   tables_.blocks.push_back({static_cast<int>(tables_.parts.size()), 0, 0});
+  tables_.block_names.push_back(elements.empty() ? "direct" : name_of(elements, whole_));
   std::vector<std::size_t> fixed_elements, direct;
   std::vector<Part> others;
   for (Part& part : independent_parts(network, elements, tool, ground)) {
@@ -148,11 +149,11 @@ void TunableBlocks::add_direct(const Network& network, const std::vector<std::si
     named.insert(named.end(), fixed.static_elements.begin(), fixed.static_elements.end());
     const int spring =
         add_spring(number(network, springs, fixed.static_stiffness, fixed.static_elements), name_of(named, whole_));
-    tables_.parts.push_back({tunable_kind::spring, spring, no_index, no_index, no_index, 0, 0, 0, 0, is_loose});
+    tables_.parts.push_back({PartKind::spring, spring, no_index, no_index, no_index, 0, 0, 0, 0, is_loose});
     if (tables_.blocks.size() == 1) tables_.head.static_spring = spring;
   }
   if (!dampers.empty() || fixed.feedthrough_damping > 0)
-    tables_.parts.push_back({tunable_kind::damper, no_index,
+    tables_.parts.push_back({PartKind::damper, no_index,
                              number(network, dampers, fixed.feedthrough_damping, fixed.feedthrough_elements), no_index,
                              no_index, 0, 0, 0, 0, false});
 }
@@ -172,7 +173,7 @@ void TunableBlocks::add_fixed(const Network& network, const LinearForm& fixed) {
     describe(stiffness, "stiffness", Spring{});
     describe(damping, "damping", Damper{});
     const int spring = add_spring(stiffness, name_of(mode.elements, whole_), kept);
-    tables_.parts.push_back({tunable_kind::relaxation, spring, damping, no_index, no_index, 0, 0, 0, 0, false});
+    tables_.parts.push_back({PartKind::relaxation, spring, damping, no_index, no_index, 0, 0, 0, 0, false});
   }
 }
 
@@ -186,7 +187,7 @@ bool TunableBlocks::add_relaxation(const Network& network, const Part& part) {
   const int stiffness = number(network, spring_first ? sides.springs_at_port : sides.springs_at_held);
   const int spring = add_spring(stiffness, name_of(part.elements, whole_));
   const int damping = number(network, spring_first ? sides.dampers_at_held : sides.dampers_at_port);
-  tables_.parts.push_back({tunable_kind::relaxation, spring, damping, no_index, no_index, 0, 0, 0, 0, false});
+  tables_.parts.push_back({PartKind::relaxation, spring, damping, no_index, no_index, 0, 0, 0, 0, false});
   return true;
 }
 
@@ -210,7 +211,7 @@ void TunableBlocks::add_mesh(const Network& network, const Part& part) {
     tables_.edges.push_back({between.first.first, between.first.second, spring, is_elastic ? no_index : value});
   }
   const int nodes = static_cast<int>(part.internal.size());
-  tables_.parts.push_back({tunable_kind::mesh, no_index, no_index, no_index, no_index, tables_.mesh_nodes, nodes,
+  tables_.parts.push_back({PartKind::mesh, no_index, no_index, no_index, no_index, tables_.mesh_nodes, nodes,
                            first_edge, static_cast<int>(tables_.edges.size()) - first_edge, false});
   tables_.mesh_nodes += nodes;
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "discretise/element_names.hpp"
 #include "discretise/law_writer.hpp"
 #include "discretise/mode_coefficients.hpp"
 #include "discretise/rounding.hpp"
@@ -79,7 +80,7 @@ class TablesBuilder {
     if (const std::optional<Tree> tree = form->has_slips() ? series_parallel_tree(structure_) : std::nullopt)
       add_tree(*tree, *form);
     else add_parts(*form);
-    count();
+    tables_.head.slip_rule.takes_part = brake_.follows != BrakeFollows::constant && has_dampers_behind_slips();
     if (network_.map && !network_.contact) write_map();
     tables_.brake.observed = blocks_.number(network_, brake_.observed);
     return true;
@@ -92,11 +93,10 @@ class TablesBuilder {
 
   void write_head() {
     const bool is_double = choices_.scalar == ScalarType::float64;
-    tunable_tables<double>& head = tables_.head;
+    TunableHead& head = tables_.head;
     head.rate = to_scalar(1 / period_);
     tables_.is_exact = choices_.scheme == Scheme::exact;
     head.retention = to_scalar(exp(-period_ / Real(offset_time)));
-    head.threshold = flush_threshold(choices_.scalar);
     tables_.least_share = is_double ? 0x1p-24 : 0x1p-10;
     tables_.brake = {brake_.follows,
                      to_scalar(Real(brake_.damping)),
@@ -111,13 +111,8 @@ class TablesBuilder {
     const double surface = network_.contact && !network_.map ? network_.contact->at : 0;
     head.contact = {network_.contact.has_value(), to_scalar(Real(surface)),
                     to_scalar(Real(decomposition_.encoder_step))};
-    head.slip_rule = slip_rule();
-  }
-
-  tunable_slip_rule<double> slip_rule() const {
     const SlipDecomposition& slips = decomposition_.slips;
-    const bool takes_part = brake_.follows != BrakeFollows::constant && slip_elements(structure_) > 0;
-    return {takes_part, to_scalar(Real(slips.hysteresis)), to_scalar(Real(slips.coil_share))};
+    head.slip_rule = {false, to_scalar(Real(slips.hysteresis)), to_scalar(Real(slips.coil_share))};
   }
 
   void add_tunable(const Parameter& parameter) {
@@ -165,6 +160,15 @@ class TablesBuilder {
     return effective_elements(linear_part(network_, form));
   }
 
+  // Without one slips leave nothing to the brake.
+  bool has_dampers_behind_slips() const {
+    if (!tables_.has_slips()) return false;
+    const int first = tables_.blocks.front().part_count;
+    return std::any_of(tables_.parts.begin() + first, tables_.parts.end(), [](const BlockPart& part) {
+      return part.kind == PartKind::damper || part.kind == PartKind::mesh;
+    });
+  }
+
   // Of the table only the shape is taken: its numbers follow from the parameters. Behind a contact the first block may
   // be the one that is there.
   void add_component(const NormalTree& component, const Tree& tree, bool has_first_block) {
@@ -172,12 +176,11 @@ class TablesBuilder {
     const SlipTable table = slip_table(component, any_stiffness, choices_.scalar);
     tables_.couplings.push_back({static_cast<int>(tables_.nodes.size()), static_cast<int>(table.nodes.size()),
                                  static_cast<int>(tables_.blocks.size()) - (has_first_block ? 1 : 0),
-                                 static_cast<int>(tables_.yields.size()), tables_.corners});
+                                 static_cast<int>(tables_.yields.size())});
     for (slip_node<double> node : table.nodes) {
       node.stiffness = node.compliance = node.yield = 0;
       tables_.nodes.push_back(node);
     }
-    tables_.corners += slip_tree_corners(table.nodes.data(), static_cast<int>(table.nodes.size()));
     std::set<const NormalTree*> loose;
     find_loose(component, loose);
     for (const NormalTree* block : table.blocks)
@@ -191,6 +194,7 @@ class TablesBuilder {
       for (const std::vector<std::size_t>& cut : cuts_through(tree, slip->elements))
         tables_.cuts.push_back(blocks_.number(network_, cut));
       tables_.yields.push_back({first, static_cast<int>(tables_.cuts.size()) - first, least_yield(slip->yield_force)});
+      name_slip(slip->elements);
       tables_.links.push_back({0, 0});
     }
   }
@@ -222,20 +226,16 @@ class TablesBuilder {
       for (std::size_t slip : link.slips) largest += value_of(structure_.elements[slip].law);
       tables_.yields.push_back({static_cast<int>(tables_.cuts.size()), 1, least_yield(largest)});
       tables_.cuts.push_back(blocks_.number(network_, link.slips));
+      name_slip(link.slips);
     }
     tables_.graphs.back().tie_count = static_cast<int>(tables_.ties.size()) - tables_.graphs.back().first_tie;
     tables_.ends = std::max(tables_.ends, ends);
     for (std::size_t element : graph.opened) tables_.mesh_elements.push_back(network_.elements[element].name);
   }
 
-  void count() {
-    tunable_tables<double>& head = tables_.head;
-    head.spring_count = static_cast<int>(tables_.springs.size());
-    head.part_count = static_cast<int>(tables_.parts.size());
-    head.block_count = static_cast<int>(tables_.blocks.size());
-    head.slip_count = static_cast<int>(tables_.yields.size());
-    head.coupling_count = static_cast<int>(tables_.couplings.size());
-    head.graph_count = static_cast<int>(tables_.graphs.size());
+  void name_slip(const std::vector<std::size_t>& elements) {
+    tables_.slip_names.push_back(name_of(elements, network_));
+    tables_.slip_elements.push_back(elements);
   }
 
   // How far w goes, and the static spring's stiffness, no less than they are at most.
@@ -284,12 +284,7 @@ bool exceeds(std::size_t count, int most, const char* what, const Network& netwo
 }
 
 bool is_too_large(const TunableTables& tables, const Network& network, Diagnostics& diagnostics) {
-  return exceeds(tables.springs.size(), most_tunable_springs, "springs", network, diagnostics) ||
-         exceeds(static_cast<std::size_t>(tables.mesh_nodes), most_tunable_nodes, "inner nodes", network,
-                 diagnostics) ||
-         exceeds(tables.blocks.size(), most_tunable_blocks, "parts between slips", network, diagnostics) ||
-         exceeds(tables.nodes.size(), most_tunable_slip_parts, "parts between slips", network, diagnostics) ||
-         exceeds(static_cast<std::size_t>(tables.corners), most_tunable_corners, "corners of slips", network,
+  return exceeds(static_cast<std::size_t>(tables.mesh_nodes), most_tunable_nodes, "inner nodes", network,
                  diagnostics) ||
          exceeds(static_cast<std::size_t>(tables.ends), most_tunable_ends, "ends of slips outside a tree", network,
                  diagnostics);
@@ -306,14 +301,13 @@ Network at_default(const Network& network) {
   return present;
 }
 
-std::optional<TunableTables> tunable_tables_of(const Network& linear, const Network& network, const LinearForm& form,
+std::optional<TunableTables> tunable_tables_of(const Network& linear, const Network& network,
                                                const Decomposition& decomposition, const Choices& choices,
                                                const Real& sample_period, const PortDevice& device,
                                                Diagnostics& diagnostics) {
   const auto tunables =
       std::count_if(network.parameters.begin(), network.parameters.end(), [](const Parameter& p) { return p.tunable; });
   if (exceeds(static_cast<std::size_t>(tunables), most_tunables, "tunable parameters", network, diagnostics) ||
-      exceeds(form.modes.size(), most_tunable_modes, "relaxations", network, diagnostics) ||
       exceeds(static_cast<std::size_t>(slip_elements(network)), most_tunable_slips, "slips", network, diagnostics))
     return std::nullopt;
   const BrakeRule brake = brake_rule_of(linear, decomposition, device);

@@ -17,7 +17,7 @@ Network at_default(const Network& network);
 // for it. Out: its tables. Ensures: parts that no tunable touches are reduced to modes, Maxwell branches keep the
 // chosen scheme, other parts with tunables keep element states by backward Euler. Refuses: more states, slips, … than
 // there is room for; more slips outside a tree than are compiled there without tunables.
-std::optional<TunableTables> tunable_tables_of(const Network& linear, const Network& network, const LinearForm& form,
+std::optional<TunableTables> tunable_tables_of(const Network& linear, const Network& network,
                                                const Decomposition& decomposition, const Choices& choices,
                                                const Real& sample_period, const PortDevice& device,
                                                Diagnostics& diagnostics);

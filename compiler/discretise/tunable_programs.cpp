@@ -17,7 +17,8 @@ constexpr std::string_view names_taken =
     "position force stored held_force step_stiffness springs_stiffness mesh_stiffness mesh_feedthrough mesh_viscosity "
     "feedthrough_damping viscosity half_viscosity wanted_brake steady_brake velocity_gain brake_left assured_damping "
     "make_up surface_stiffness recovery_compliance feedthrough_stiffness last_position last_brake resting_brake "
-    "surface brake max_damping period rate one zero minus_one half no_damping largest_ratio chosen_damping "
+    "surface brake max_damping period rate one zero minus_one two half quarter hysteresis_squared slid held no_damping "
+    "largest_ratio chosen_damping "
     "assured_share law restrict tunables springs parts edges blocks cuts yields couplings nodes graphs links ties "
     "tables threshold scalar damping steady_damping added_damping sample_period parameters values clamped wanted self "
     "none surface_at encoder_step gap approach depth surface_change surface_now surface_recovery surface_back "
@@ -44,7 +45,7 @@ class ProgramsBuilder {
     head_.contact.is_there ? write_contact_output() : write_output();
     write_update();
     write_rest();
-    call(law_.energy, law_.stored, {TunableCall::stored_energy},
+    call(law_.energy, law_.stored, {Callee::stored_energy},
          "V + T: in the springs, and what changes of parameters have set free");
     check_law(law_, "discretise");
     return std::move(law_);
@@ -72,22 +73,22 @@ class ProgramsBuilder {
   void write_coefficients() {
     std::vector<ExpressionId> given;
     for (int i = 0; i < tables_.brake.observed; ++i) given.push_back(number(i));
-    for (tunable_part& part : tables_.parts)
-      if (part.kind == tunable_kind::relaxation) write_relaxation(part, given);
-    const bool has_meshes = has(tunable_kind::mesh);
+    for (BlockPart& part : tables_.parts)
+      if (part.kind == PartKind::relaxation) write_relaxation(part, given);
+    const bool has_meshes = has(PartKind::mesh);
     step_stiffness_ = tuned(has_meshes ? "springs_stiffness" : "step_stiffness", writer_.stiffness(),
                             "what springs answer in a sample");
-    call(law_.tune, step_stiffness_, {TunableCall::set, given}, "");
-    call(law_.tune, held_, {TunableCall::held}, "");
-    for_each_part([&](const tunable_part& part) {
-      if (part.kind == tunable_kind::damper) feedthrough_ = writer_.plus(feedthrough_, number(part.damping));
+    call(law_.tune, step_stiffness_, {Callee::set, given}, "");
+    call(law_.carry, held_, {Callee::held}, "");
+    for_each_part([&](const BlockPart& part) {
+      if (part.kind == PartKind::damper) feedthrough_ = writer_.plus(feedthrough_, number(part.damping));
     });
     viscosity_ = feedthrough_;
     if (has_meshes) write_meshes(given);
     if (feedthrough_ == nothing) feedthrough_ = none();
     if (!follows_viscosity()) return;
-    for_each_part([&](const tunable_part& part) {
-      if (part.kind == tunable_kind::relaxation) viscosity_ = writer_.plus(viscosity_, number(part.damping));
+    for_each_part([&](const BlockPart& part) {
+      if (part.kind == PartKind::relaxation) viscosity_ = writer_.plus(viscosity_, number(part.damping));
     });
     viscosity_ = viscosity_ == nothing
                      ? none()
@@ -95,7 +96,7 @@ class ProgramsBuilder {
   }
 
   // z ← z + φ δ − α z with x = T k/b, α = x φ. Exact φ = (1 − e^(−x))/x; backward Euler φ = 1/(1 + x).
-  void write_relaxation(tunable_part& part, std::vector<ExpressionId>& given) {
+  void write_relaxation(BlockPart& part, std::vector<ExpressionId>& given) {
     const auto spring = static_cast<std::size_t>(part.spring);
     const std::string& name = tables_.spring_names[spring];
     part.share = static_cast<int>(given.size());
@@ -126,15 +127,14 @@ class ProgramsBuilder {
   void write_meshes(const std::vector<ExpressionId>& given) {
     const VariableId stiffness = tuned("mesh_stiffness", writer_.stiffness(), "what meshes answer in a sample"),
                      through = tuned("mesh_feedthrough", writer_.damping(), "b∞ of the meshes");
-    call(law_.tune, stiffness,
-         {TunableCall::meshes, {}, TunableResult::stiffness, {{TunableResult::feedthrough, through}}}, "");
+    call(law_.tune, stiffness, {Callee::meshes, {}, CallResult::stiffness, {{CallResult::feedthrough, through}}}, "");
     const VariableId both = tuned("step_stiffness", writer_.stiffness(), "what all answer in a sample");
     writer_.assign(law_.tune, both, writer_.add(writer_.read(step_stiffness_), writer_.read(stiffness)), "");
     step_stiffness_ = both;
     feedthrough_ = writer_.plus(feedthrough_, writer_.read(through));
     if (!follows_viscosity()) return;
     const VariableId viscosity = tuned("mesh_viscosity", writer_.damping(), "of the meshes at low frequency");
-    call(law_.tune, viscosity, {TunableCall::viscosity, given}, "");
+    call(law_.tune, viscosity, {Callee::viscosity, given}, "");
     viscosity_ = writer_.plus(viscosity_, writer_.read(viscosity));
   }
 
@@ -200,13 +200,13 @@ class ProgramsBuilder {
 
   template <class Visit>
   void for_each_part(Visit visit) const {  // of what joins tool and ground without a slip
-    const tunable_block<double>& block = tables_.blocks.front();
+    const TunableBlock& block = tables_.blocks.front();
     for (int i = block.first_part; i < block.first_part + block.part_count; ++i)
       visit(tables_.parts[static_cast<std::size_t>(i)]);
   }
-  bool has(tunable_kind kind) const {
+  bool has(PartKind kind) const {
     bool found = false;
-    for_each_part([&](const tunable_part& part) { found |= part.kind == kind; });
+    for_each_part([&](const BlockPart& part) { found |= part.kind == kind; });
     return found;
   }
 
@@ -301,7 +301,7 @@ class ProgramsBuilder {
   }
   ExpressionId product(ExpressionId first, VariableId second) { return writer_.multiply(first, writer_.read(second)); }
 
-  void call(std::vector<Statement>& program, VariableId target, CallTunable step, std::string purpose) {
+  void call(std::vector<Statement>& program, VariableId target, Call step, std::string purpose) {
     program.push_back({target, nothing, std::move(purpose), {}, std::move(step)});
   }
 
@@ -313,9 +313,9 @@ class ProgramsBuilder {
     writer_.assign(law_.output, change_,
                    writer_.subtract(writer_.read(law_.position), writer_.read(law_.rest_position)), "Δu = u − u₋");
     ExpressionId sum = writer_.add(product(stiffness(), change_), writer_.read(held_));
-    if (head_.slip_count > 0) {
+    if (tables_.has_slips()) {
       const VariableId slips = local("slips_force", writer_.force(), "σ, of all slips");
-      call(law_.output, slips, {TunableCall::slip, {writer_.read(change_)}}, "σ of all slips");
+      call(law_.output, slips, {Callee::slip, {writer_.read(change_)}}, "σ of all slips");
       sum = writer_.add(sum, writer_.read(slips));
     }
     ExpressionId brake = damping(), driven = gain();
@@ -332,16 +332,16 @@ class ProgramsBuilder {
     if (!head_.slip_rule.takes_part) return force;
     const VariableId now = local("slips_feedthrough", writer_.stiffness(), "b∞/h behind slips, left to the brake"),
                      damping = local("slips_brake", writer_.damping(), "b of what is behind slips");
-    CallTunable step = {TunableCall::slip_brake,
-                        {writer_.read(law_.position), writer_.read(left_)},
-                        TunableResult::now,
-                        {{TunableResult::damping, damping}}};
+    Call step = {Callee::slip_brake,
+                 {writer_.read(law_.position), writer_.read(left_)},
+                 CallResult::now,
+                 {{CallResult::damping, damping}}};
     brake = writer_.add(brake, writer_.read(damping));
     const bool makes_up = gain != nullptr && make_up_ != nothing;
     const VariableId wanted =
         makes_up ? local("slips_wanted", writer_.damping(), "b of what is behind slips, where the coil is going")
                  : no_variable;
-    if (makes_up) step.found.push_back({TunableResult::wanted, wanted});
+    if (makes_up) step.found.push_back({CallResult::wanted, wanted});
     call(law_.output, now, std::move(step), "b of the slips' regime");
     if (makes_up) {
       const VariableId slips_gain =
@@ -360,16 +360,13 @@ class ProgramsBuilder {
     change_ = surface.change();
     surface.write_approach();
     ExpressionId sum = nothing;
-    if (head_.slip_count == 0) {
+    if (!tables_.has_slips()) {
       surface.write_change(recovery(), held_);
       sum = writer_.add(product(stiffness(), change_), writer_.read(held_));
     } else {
       const VariableId pushed = local("pushed_force", writer_.force(), "of all slips and what is beside them");
       call(law_.output, pushed,
-           {TunableCall::push,
-            {writer_.read(surface.approach())},
-            TunableResult::force,
-            {{TunableResult::change, change_}}},
+           {Callee::push, {writer_.read(surface.approach())}, CallResult::force, {{CallResult::change, change_}}},
            "f of all slips, and Δs");
       const ExpressionId through =
           named("feedthrough_stiffness", writer_.stiffness(), "b∞/T", writer_.multiply(feedthrough_, rate()), "b∞/T");
@@ -384,24 +381,24 @@ class ProgramsBuilder {
     const ExpressionId braked = writer_.add(writer_.read(opposing), product(brake, law_.velocity));
     surface.write_command(opposing, {writer_.add(braked, driven), writer_.add(writer_.read(opposing), driven), brake});
     place_ = surface.now();
-    if (head_.static_spring == no_index && head_.slip_count > 0) return;
+    if (head_.static_spring == no_index && tables_.has_slips()) return;
     place_ = local("surface_back", writer_.length(), "s, where what was shed has followed the tool");
-    call(law_.output, place_, {TunableCall::follow, {writer_.read(surface.now()), writer_.read(surface.depth())}},
+    call(law_.output, place_, {Callee::follow, {writer_.read(surface.now()), writer_.read(surface.depth())}},
          "a dent comes back with the tool");
   }
 
   void write_update() {
     const VariableId placed = writer_.kept(place_);
-    call(law_.update, held_, {TunableCall::update, {writer_.read(writer_.kept(change_)), writer_.read(placed)}}, "");
+    call(law_.update, held_, {Callee::update, {writer_.read(writer_.kept(change_)), writer_.read(placed)}}, "");
     writer_.assign(law_.update, law_.rest_position, writer_.read(placed), head_.contact.is_there ? "s₋ = s" : "u₋ = u");
   }
 
   void write_rest() {
-    call(law_.rest, held_, {TunableCall::reset, {writer_.read(law_.rest_position)}}, "");
+    call(law_.rest, held_, {Callee::reset, {writer_.read(law_.rest_position)}}, "");
     ExpressionId resting = damping();
     if (head_.slip_rule.takes_part) {
       const VariableId slips = state("resting_brake", writer_.damping(), "b of what is behind slips that hold");
-      call(law_.rest, slips, {TunableCall::resting_brake, {writer_.read(left_)}}, "");
+      call(law_.rest, slips, {Callee::resting_brake, {writer_.read(left_)}}, "");
       resting = writer_.add(resting, writer_.read(slips));
     }
     if (!head_.contact.is_there) writer_.assign(law_.rest, law_.last_brake, resting, "");
@@ -410,7 +407,7 @@ class ProgramsBuilder {
   UpdateLaw law_;
   LawWriter writer_;
   TunableTables& tables_;
-  const tunable_tables<double>& head_;
+  const TunableHead& head_;
   std::map<int, ExpressionId> numbers_;
   std::map<std::tuple<std::string, std::string, double>, ExpressionId> constants_;
   VariableId held_, change_, place_, step_stiffness_, steady_brake_, velocity_gain_, left_;

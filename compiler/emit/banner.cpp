@@ -7,7 +7,6 @@
 #include <dashpot/estimators/estimator_names.hpp>
 
 #include "decompose/slip_laws.hpp"
-#include "emit/cpp_tunable.hpp"
 #include "law/cost.hpp"
 #include "source/wrapped_text.hpp"
 
@@ -111,19 +110,10 @@ void describe_tunables(const UpdateLaw& law, const std::string& damping_unit, st
   facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake.text));
   if (!elements.empty())
     facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
-  const std::string of_set = fmt::format("cost of set(): at most {} additions, multiplications and divisions",
-                                         operations_of(cost_of(law, law.tune)));
-  if (!calls_runtime(law)) {
-    describe_cost(law, facts);
-    return facts.push_back(of_set);
-  }
-  facts.push_back(fmt::format("cost of output(): at most {} additions, multiplications and divisions",
-                              operations_of(cost_of(law, law.output))));
+  describe_cost(law, facts);
   facts.push_back(
-      fmt::format("cost of update(): at most {} additions and multiplications; {} numbers are kept between samples",
-                  operations_of(cost_of(law, law.update)), tables.springs.size()));
-  facts.push_back(
-      fmt::format("{} for the constants, {} for the springs' energy", of_set, operations_of_energy(tables)));
+      fmt::format("cost of set(): {} operations for the constants, {} for the forces of springs and their energy",
+                  operations_of(cost_of(law, law.tune)), operations_of(cost_of(law, law.carry))));
 }
 
 std::string form_text(ModeForm form) {

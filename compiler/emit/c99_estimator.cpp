@@ -104,7 +104,8 @@ std::vector<std::string> c99_estimator(const device_description& device, const s
   C99Words words;
   words.name = name;
   for (const estimator_kind kind : all_estimators) words.has[name_of(kind)] = kind == device.velocity.estimator;
-  for (const char* part : {"ring", "slope", "best_fit", "end_fit", "ROOTS", "DECAYS"}) words.has[part] = false;
+  for (const char* part : {"ring", "slope", "best_fit", "end_fit", "ROOTS", "DECAYS", "RANGES"})
+    words.has[part] = false;
   add_constants(device, words);
   std::vector<std::string> lines = c99_part("numbers.h", words);
   const std::vector<std::string> own = c99_part("estimator.h", words);

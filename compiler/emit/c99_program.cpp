@@ -10,7 +10,6 @@
 #include "certify/state_box.hpp"
 #include "emit/banner.hpp"
 #include "emit/c99_parts.hpp"
-#include "emit/c99_tunable.hpp"
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_program.hpp"
 #include "emit/cpp_slips.hpp"
@@ -35,18 +34,14 @@ class C99Printer {
 
   C99Program print() {
     C99Program program;
-    const C99Tunables tunables = c99_tunables(law_, name_);
     program.before = before();
-    append_all(program.before, tunables.before);
     program.states = states();
-    append_all(program.states, tunables.states);
-    program.functions = tunables.functions;
     program.bounds = bounds();
-    program.begin = begin(tunables);
+    program.begin = begin();
     program.reset = reset();
     program.output = output();
     program.update = update();
-    program.tune = with_constants({&law_.tune}, lines_of(law_.tune));
+    program.set = set();
     program.energy = with_constants({&law_.energy}, lines_of(law_.energy));
     if (!reads_states(law_.energy)) program.energy.insert(program.energy.begin(), "(void)self;");
     if (law_.sheds()) program.kept_share = "self->" + law_.variables[law_.share].name;
@@ -111,17 +106,18 @@ class C99Printer {
   }
 
   // The parameters as in the file, what follows from them, and at rest at 0.
-  Lines begin(const C99Tunables& tunables) {
-    Lines lines = tunables.begin;
-    for (const Tunable& parameter : law_.parameters())
-      lines.push_back(
-          fmt::format("{} = {};", name(parameter.value, 0), number(law_.variables[parameter.value].rest_value)));
-    append_all(lines, with_constants({&law_.tune}, lines_of(law_.tune)));
+  Lines begin() {
+    Lines lines;
+    for (const Variable& variable : law_.variables)
+      if (variable.role == Role::tuned)
+        lines.push_back(fmt::format("self->{} = {};", variable.name, number(variable.rest_value)));
     if (law_.joints)
       lines.push_back(fmt::format("const {} origin[{}] = {{0}};", scalar(), law_.joints->positions.size()));
     lines.push_back(fmt::format("{}_reset(self, {});", name_, law_.joints ? "origin" : "0"));
     return lines;
   }
+
+  Lines set() { return with_constants({&law_.tune, &law_.carry}, lines_of(set_program(law_))); }
 
   // The statements of `output` alone read inputs; what is not finite is answered with the last safe command.
   Lines output() {
@@ -218,7 +214,6 @@ class C99Printer {
       return print_step(statement, law_.couplings[tree->coupling], lines);
     if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
       return print_step(statement, law_.networks[network->network], lines);
-    if (const auto* call = std::get_if<CallTunable>(&statement.step)) return print_call(statement, *call, lines);
     for (place_ = 0; place_ < target.size; ++place_)
       append(lines, declaration(target) + name(statement.target, place_) + " = " + expression(statement.value) + ";");
   }
@@ -228,47 +223,83 @@ class C99Printer {
     C99Words words;
     words.name = name_;
     words.scalar = law_.scalar;
-    words.has = {{"STEP", false}, {"PUSH", false}, {"BRAKE", false}};
+    words.has = {{"STEP", false}, {"PUSH", false}};
     for (const Coupling& coupling : law_.couplings) words.has[coupling.is_pushed() ? "PUSH" : "STEP"] = true;
     Lines lines;
-    words.has["ROOTS"] = !law_.tunable && uses(law_, Operation::square_root);  // tunables bring their own
-    words.has["DECAYS"] = false;
+    words.has["ROOTS"] = uses(law_, Operation::square_root);
+    words.has["DECAYS"] = uses(law_, Operation::mean_decay);
+    words.has["RANGES"] = law_.tunable.has_value();
     append_all(lines, c99_part("numbers.h", words));
     if (!law_.couplings.empty()) append_all(lines, c99_part("slip_tree.h", words));
     if (!law_.networks.empty()) append_all(lines, c99_part("slip_network.h", words));
-    for (const Coupling& coupling : law_.couplings) append_table(coupling, lines);
-    for (const SlipNetwork& network : law_.networks) append_tables(network, lines);
+    for (const Coupling& coupling : law_.couplings)
+      if (coupling.tuned.empty()) append_table(coupling, lines);
+    for (const SlipNetwork& network : law_.networks)
+      if (!network.tuned) append_tables(network, lines);
+    if (law_.tunable) append_ranges(lines);
     return lines;
+  }
+
+  // Of set(), whose parameters are told by their number.
+  void append_ranges(Lines& lines) const {
+    const std::vector<Tunable> parameters = law_.parameters();
+    lines.push_back(fmt::format("static const {0}_range_of_parameter {0}_ranges[{1}] = {{", name_, parameters.size()));
+    for (const Tunable& t : parameters)
+      lines.push_back(
+          fmt::format("    {{{}, {}}},  // {} [{}]", number(t.range.min), number(t.range.max), t.name, t.unit));
+    append_all(lines, {"};", ""});
+  }
+
+  // What parameters change is made up for each step.
+  static const char* storage(bool is_constant) { return is_constant ? "static const" : "const"; }
+
+  std::string number_or(double value, VariableId tuned) const {
+    return tuned == no_variable ? number(value) : name(tuned, 0);
   }
 
   void append_table(const Coupling& coupling, Lines& lines) const {
     lines.push_back("// kind, children, slips, place, first corner, stiffness, compliance, yield force");
-    lines.push_back(
-        fmt::format("static const {0}_node {0}_{1}[{2}] = {{", name_, coupling.name, coupling.nodes.size()));
-    for (const slip_node<double>& node : coupling.nodes)
-      lines.push_back(fmt::format("    {{{}_{}, {}, {}, {}, {}, {}, {}, {}, {}}},", name_, part_name(node.kind),
-                                  node.first_child, node.child_count, node.slips, node.place, node.first_corner,
-                                  number(node.stiffness), number(node.compliance), number(node.yield)));
-    append_all(lines, {"};", ""});
+    lines.push_back(fmt::format("{0} {1}_node {1}_{2}[{3}] = {{", storage(coupling.tuned.empty()), name_, coupling.name,
+                                coupling.nodes.size()));
+    for (std::size_t k = 0; k < coupling.nodes.size(); ++k) {
+      const slip_node<double>& node = coupling.nodes[k];
+      const TunedNode tuned = coupling.tuned.empty() ? TunedNode{} : coupling.tuned[k];
+      append(lines, fmt::format("    {{{}_{}, {}, {}, {}, {}, {}, {}, {}, {}}},", name_, part_name(node.kind),
+                                node.first_child, node.child_count, node.slips, node.place, node.first_corner,
+                                number_or(node.stiffness, tuned.stiffness),
+                                number_or(node.compliance, tuned.compliance), number_or(node.yield, tuned.yield)));
+    }
+    lines.push_back("};");
+    if (coupling.tuned.empty()) lines.push_back("");
   }
 
   void append_tables(const SlipNetwork& network, Lines& lines) const {
     const std::string owner = name_ + "_" + network.name;
+    const TunedNetwork tuned = network.tuned.value_or(TunedNetwork{});
+    const auto at = [](const std::vector<VariableId>& all, std::size_t i) {
+      return all.empty() ? no_variable : all[i];
+    };
+    const char* const kind = storage(!network.tuned);
     lines.push_back("// ends, lowest and highest force of each slip; inner ends come first, then tool and ground");
-    lines.push_back(fmt::format("static const {}_link {}_links[{}] = {{", name_, owner, network.slip_count()));
-    for (const slip_link<double>& link : network.links)
-      lines.push_back(
-          fmt::format("    {{{}, {}, {}, {}}},", link.a, link.b, number(link.lowest), number(link.highest)));
+    lines.push_back(fmt::format("{} {}_link {}_links[{}] = {{", kind, name_, owner, network.slip_count()));
+    for (std::size_t k = 0; k < network.links.size(); ++k) {
+      const slip_link<double>& link = network.links[k];
+      const VariableId yield = at(tuned.yields, k);
+      const std::string lowest = yield == no_variable ? number(link.lowest) : "-" + name(yield, 0);
+      lines.push_back(fmt::format("    {{{}, {}, {}, {}}},", link.a, link.b, lowest, number_or(link.highest, yield)));
+    }
     lines.push_back("};");
     lines.push_back(
         "// stiffness over one sample between inner ends, to the tool and to the ground [N/m] or [N·m/rad]");
-    for (const auto& [what, values] : {std::pair("between", &network.between), std::pair("to_tool", &network.to_tool),
-                                       std::pair("to_ground", &network.to_ground)}) {
-      std::string table = fmt::format("static const {} {}_{}[{}] = {{", scalar(), owner, what, values->size());
-      for (std::size_t i = 0; i < values->size(); ++i) table += (i == 0 ? "" : ", ") + number((*values)[i]);
+    for (const auto& [what, values, variables] : {std::tuple("between", &network.between, &tuned.between),
+                                                  std::tuple("to_tool", &network.to_tool, &tuned.to_tool),
+                                                  std::tuple("to_ground", &network.to_ground, &tuned.to_ground)}) {
+      std::string table = fmt::format("{} {} {}_{}[{}] = {{", kind, scalar(), owner, what, values->size());
+      for (std::size_t i = 0; i < values->size(); ++i)
+        table += (i == 0 ? "" : ", ") + number_or((*values)[i], at(*variables, i));
       append(lines, table + "};");
     }
-    lines.push_back("");
+    if (!network.tuned) lines.push_back("");
   }
 
   std::string held_forces(const std::vector<VariableId>& held) const {
@@ -278,6 +309,7 @@ class C99Printer {
   }
 
   void print_step(const Statement& statement, const Coupling& coupling, Lines& lines) {
+    if (!coupling.tuned.empty()) append_table(coupling, lines);
     const std::string& own = coupling.name;
     append(lines, fmt::format("const {} {}_held[{}] = {{{}}};", scalar(), own, coupling.held.size(),
                               held_forces(coupling.held)));
@@ -302,6 +334,7 @@ class C99Printer {
   }
 
   void print_step(const Statement& statement, const SlipNetwork& network, Lines& lines) {
+    if (network.tuned) append_tables(network, lines);
     const std::string& own = network.name;
     std::string sign;
     for (VariableId id : network.last_sign) sign += (sign.empty() ? "(int)" : ", (int)") + name(id, 0);
@@ -320,7 +353,7 @@ class C99Printer {
              {"between", fmt::format("{}_{}_between", name_, own)},
              {"to_tool", fmt::format("{}_{}_to_tool", name_, own)},
              {"to_ground", fmt::format("{}_{}_to_ground", name_, own)},
-             {"through", number(network.through)},
+             {"through", number_or(network.through, network.tuned ? network.tuned->through : no_variable)},
              {"change", expression(statement.value)},
              {"held", own + "_held"},
              {"moved", own + "_moved"},
@@ -334,23 +367,6 @@ class C99Printer {
       assign(network.moved[i], fmt::format("{}_moved[{}]", own, i), lines);
     for (std::size_t i = 0; i < network.sign.size(); ++i)
       assign(network.sign[i], fmt::format("({}){}_sign[{}]", scalar(), own, i), lines);
-  }
-
-  // Numbers of the law are given as an array.
-  void print_call(const Statement& statement, const CallTunable& call, Lines& lines) {
-    const std::string_view callee = name_of(call.call);
-    std::string given;
-    for (ExpressionId id : call.given) given += (given.empty() ? "" : ", ") + expression(id);
-    if (takes_numbers(call.call)) {
-      append(lines, fmt::format("const {} {}_numbers[{}] = {{{}}};", scalar(), callee, call.given.size(), given));
-      given = fmt::format("{}_numbers", callee);
-    }
-    const std::string value =
-        fmt::format("{}_tunable_{}(&self->law{}{})", name_, callee, given.empty() ? "" : ", ", given);
-    if (call.result == TunableResult::value) return assign(statement.target, value, lines);
-    lines.push_back(fmt::format("const {0}_{1} {1} = {2};", name_, callee, value));
-    assign(statement.target, fmt::format("{}.{}", callee, name_of(call.result)), lines);
-    for (const auto& [result, id] : call.found) assign(id, fmt::format("{}.{}", callee, name_of(result)), lines);
   }
 
   void assign(VariableId target, const std::string& value, Lines& lines) const {
@@ -415,12 +431,10 @@ class C99Printer {
     return found;
   }
 
-  // A call reads the tunables' own.
   bool reads_states(const Program& program) const {
     bool found = false;
     for (const Statement& statement : program) {
-      found |= std::holds_alternative<CallTunable>(statement.step);
-      each_read(law_, statement, [&](VariableId id) { found |= law_.variables[id].role == Role::state; });
+      each_read(law_, statement, [&](VariableId id) { found |= law_.variables[id].is_kept(); });
     }
     return found;
   }

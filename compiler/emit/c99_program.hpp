@@ -12,15 +12,14 @@
 namespace dashpot::compiler {
 
 struct C99Program {
-  std::vector<std::string> before;     // types, constants and functions that know nothing of the struct
-  std::vector<std::string> states;     // members of the struct
-  std::vector<std::string> bounds;     // comparisons of them with a box, joined; none where none is known
-  std::vector<std::string> functions;  // that the lines below call
-  std::vector<std::string> begin;      // before everything else
+  std::vector<std::string> before;  // types, constants and functions that know nothing of the struct
+  std::vector<std::string> states;  // members of the struct
+  std::vector<std::string> bounds;  // comparisons of them with a box, joined; none where none is known
+  std::vector<std::string> begin;   // before everything else
   std::vector<std::string> reset;
   std::vector<std::string> output;  // down to the assignment of `command`
   std::vector<std::string> update;  // of a finite sample
-  std::vector<std::string> tune;    // of set(), with the parameters' new values
+  std::vector<std::string> set;     // with the parameters' new values
   std::vector<std::string> energy;  // down to that of `stored`
   std::string kept_share;           // of all forces, by the last output; empty where a law never sheds
 };

@@ -64,7 +64,7 @@ class BatchPrinter {
     for (const auto* program : {&law_.energy, &law_.rest})
       for (const Statement& statement : *program) find_reads(statement.value, {}, kept_);
     std::set<VariableId> tuned;
-    for (const Statement& statement : law_.tune) {
+    for (const Statement& statement : set_program(law_)) {
       find_reads(statement.value, tuned, kept_);
       tuned.insert(statement.target);
     }
@@ -145,7 +145,7 @@ class BatchPrinter {
                  "// range and is at its bound now, or it was no number and is as it was.",
                  "unsigned set(long long point, const parameters& wanted) noexcept {",
                  "  scalar* const state = state_of(point);"};
-    for (const std::string& line : lines_of_point(law_.tune, true)) batch.set.push_back("  " + line);
+    for (const std::string& line : lines_of_point(set_program(law_), true)) batch.set.push_back("  " + line);
     for (const char* line : {"  return clamped;", "}", ""}) batch.set.push_back(line);
   }
 
@@ -153,7 +153,7 @@ class BatchPrinter {
     std::vector<std::string> headers = {"dashpot/command.hpp"};
     if (uses(law_, Operation::mean_decay)) headers.push_back("dashpot/exponential.hpp");
     if (uses(law_, Operation::square_root)) headers.push_back("dashpot/elementary.hpp");
-    if (law_.tunable) headers.push_back("dashpot/tunable/tables.hpp");
+    if (law_.tunable) headers.push_back("dashpot/tunable_range.hpp");
     headers.push_back("dashpot/vector.hpp");
     return headers;
   }
@@ -271,7 +271,7 @@ class BatchPrinter {
                       cpp_literal(law_.flush_threshold, law_.scalar)));
     for (CoefficientId read : constants_read(law_))
       append_constant_of_each(law_.coefficients[read], law_.scalar, lines);
-    append_tables_of_tunables(law_, lines);
+    append_ranges(law_, lines);
     return lines;
   }
 

@@ -10,10 +10,10 @@ constexpr std::size_t line_width = 112;
 std::size_t indentation(const std::string& text) { return std::min(text.find_first_not_of(' '), text.size()); }
 
 // The blank, not beyond `limit` and outside of [], that a line is best broken at: behind a plus, else behind a comma
-// but that of an array and its place, else behind a product's sign, else between the two of a choice; 0 where there is
-// none.
+// but that of an array and its place, else behind a product's sign, else between the two of a choice, else behind
+// another sign; 0 where there is none.
 std::size_t break_place(const std::string& text, std::size_t limit) {
-  std::size_t plus = 0, comma = 0, product = 0, choice = 0;
+  std::size_t plus = 0, comma = 0, product = 0, choice = 0, other = 0;
   int depth = 0;
   for (std::size_t i = 1; i <= limit && i < text.size(); ++i) {
     depth += (text[i] == '[') - (text[i] == ']');
@@ -21,9 +21,10 @@ std::size_t break_place(const std::string& text, std::size_t limit) {
     if (text[i - 1] == '+') plus = i;
     if (text[i - 1] == '*') product = i;
     if (text[i - 1] == ':' || text[i - 1] == '?') choice = i;
+    if (text[i - 1] == '=' || text[i - 1] == '-') other = i;
     if (text[i - 1] == ',' && text.compare(i, 3, " j)") != 0) comma = i;
   }
-  return plus > limit / 4 ? plus : comma > 0 ? comma : product > 0 ? product : choice;
+  return plus > limit / 4 ? plus : comma > 0 ? comma : product > 0 ? product : choice > 0 ? choice : other;
 }
 
 std::vector<std::string> wrapped(std::string text) {

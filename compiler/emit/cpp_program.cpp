@@ -49,8 +49,9 @@ class CppPrinter {
     for (auto* lines : {&program.update, &program.energy}) put_alias_before(*lines);
     put_alias_before(program.output, program.keep);
     program.parameters = parameters_of(law_);
-    if (is_constructed()) append_constructor(program.parameters);
-    program.set = set_of(law_, between_samples_.lines_of(law_.tune));
+    std::vector<std::string> tuning = between_samples_.lines_of(set_program(law_));
+    append_tuning(law_, tuning);
+    program.set = set_of(law_, tuning);
     if (law_.sheds()) append_kept_share(program.set);
     program.reset = reset();
     program.constants = constants();
@@ -68,7 +69,7 @@ class CppPrinter {
     if (uses(law_, Operation::mean_decay)) headers.push_back("dashpot/exponential.hpp");
     if (uses(law_, Operation::square_root)) headers.push_back("dashpot/elementary.hpp");
     if (!law_.couplings.empty()) headers.push_back("dashpot/slip_tree.hpp");
-    if (law_.tunable) headers.push_back(calls_runtime(law_) ? "dashpot/tunable_law.hpp" : "dashpot/tunable/tables.hpp");
+    if (law_.tunable) headers.push_back("dashpot/tunable_range.hpp");
     if (law_.lanes > 1) headers.push_back("dashpot/vector.hpp");
     return headers;
   }
@@ -175,9 +176,11 @@ class CppPrinter {
           fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state",
                       literal(law_.flush_threshold)));
     for (CoefficientId read : constants_read(law_)) append_constant(law_.coefficients[read], lines);
-    for (const Coupling& coupling : law_.couplings) append_table(law_, coupling, lines);
-    for (const SlipNetwork& network : law_.networks) append_tables(law_, network, lines);
-    append_tables_of_tunables(law_, lines);
+    for (const Coupling& coupling : law_.couplings)
+      if (coupling.tuned.empty()) append_table(law_, coupling, lines);
+    for (const SlipNetwork& network : law_.networks)
+      if (!network.tuned) append_tables(law_, network, lines);
+    append_ranges(law_, lines);
     return lines;
   }
 
@@ -212,16 +215,6 @@ class CppPrinter {
     for (const GuardInTurn& guard : law_.guards) lines.push_back(guard.name + "_ = 0;");
     for (std::string& line : between_samples_.lines_of(law_.rest)) lines.push_back(std::move(line));
     return lines;
-  }
-
-  // Where what a new object has is the work of statements.
-  bool is_constructed() const { return law_.tunable && !calls_runtime(law_); }
-
-  void append_constructor(std::vector<std::string>& lines) const {
-    for (const std::string& line :
-         {std::string(), std::string("// At rest at 0, with the parameters that are there to begin with."),
-          name_ + "() noexcept {", std::string("  set({});"), std::string("  reset();"), std::string("}")})
-      lines.push_back(line);
   }
 
   bool is_of_rest(VariableId state) const {
@@ -263,8 +256,7 @@ class CppPrinter {
   std::vector<const Variable*> states_in_order() const {
     std::vector<const Variable*> all;
     for (const Variable& variable : law_.variables)
-      if (variable.role == Role::state && (is_constructed() || !is_of_rest(law_.variables.id_of(variable))))
-        all.push_back(&variable);
+      if (variable.is_kept()) all.push_back(&variable);
     if (law_.rest_position != no_variable)
       std::stable_partition(all.begin(), all.end(),
                             [&](const Variable* v) { return v != &law_.variables[law_.rest_position]; });
@@ -289,43 +281,11 @@ class CppPrinter {
     for (const GuardInTurn& guard : law_.guards)
       lines.push_back(fmt::format("int {}_ = 0;  // first place of {}_ that is guarded next", guard.name,
                                   law_.variables[guard.state].name));
-    if (law_.tunable) append_tuned(lines);
+    for (const Coupling& coupling : law_.couplings)
+      if (!coupling.tuned.empty()) append_table(law_, coupling, lines);
+    for (const SlipNetwork& network : law_.networks)
+      if (network.tuned) append_tables(law_, network, lines);
     return lines;
-  }
-
-  // What set() would find for the values to begin with, and then what reset() would.
-  void append_tuned(std::vector<std::string>& lines) {
-    for (const Tunable& parameter : law_.parameters()) {
-      const Variable& variable = law_.variables[parameter.value];
-      lines.push_back(fmt::format("scalar {} = {};  // {} [{}]", CppStatements::scalar_name(variable),
-                                  literal(variable.rest_value), variable.meaning, variable.unit));
-    }
-    if (is_constructed()) return append_numbers(lines);
-    append_state_of_tunables(law_, lines);
-    for (const std::vector<Statement>* program : {&law_.tune, &law_.rest})
-      for (const Statement& statement : *program) {
-        if (program == &law_.tune && is_of_rest(statement.target)) continue;
-        const Variable& variable = law_.variables[statement.target];
-        if (const auto* call = std::get_if<CallTunable>(&statement.step))
-          append_initial_values(law_, statement, *call, statements_, lines);
-        else
-          append(lines,
-                 fmt::format("scalar {} = {};", CppStatements::scalar_name(variable),
-                             statements_.expression(statement.value, 0)),
-                 fmt::format("{} [{}]", variable.meaning, variable.unit));
-      }
-  }
-
-  // What set() finds.
-  void append_numbers(std::vector<std::string>& lines) const {
-    const std::vector<Tunable> parameters = law_.parameters();
-    for (const Variable& variable : law_.variables) {
-      const bool is_parameter = std::any_of(parameters.begin(), parameters.end(),
-                                            [&](const Tunable& t) { return &law_.variables[t.value] == &variable; });
-      if (variable.role == Role::tuned && !is_parameter)
-        lines.push_back(fmt::format("scalar {} = 0;  // {} [{}]", CppStatements::scalar_name(variable),
-                                    variable.meaning, variable.unit));
-    }
   }
 
   std::vector<std::string> functions() const {

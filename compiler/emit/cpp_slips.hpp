@@ -19,5 +19,7 @@ void append_step(const UpdateLaw& law, const Statement& statement, const SlipNet
 
 void append_table(const UpdateLaw& law, const Coupling& coupling, std::vector<std::string>& lines);
 void append_tables(const UpdateLaw& law, const SlipNetwork& network, std::vector<std::string>& lines);
+// What set() changes in the tables, by what it has worked out.
+void append_tuning(const UpdateLaw& law, std::vector<std::string>& lines);
 
 }  // namespace dashpot::compiler

@@ -6,7 +6,6 @@
 
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_slips.hpp"
-#include "emit/cpp_tunable.hpp"
 #include "law/expression_text.hpp"
 #include "law/walk.hpp"
 
@@ -90,8 +89,6 @@ void CppStatements::print_unrolled(const Statement& statement, std::vector<std::
     return append_step(law_, statement, law_.couplings[tree->coupling], *this, lines);
   if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
     return append_step(law_, statement, law_.networks[network->network], *this, lines);
-  if (const auto* call = std::get_if<CallTunable>(&statement.step))
-    return append_call(law_, statement, *call, *this, lines);
   const bool is_masked = masks_states_ && target.role == Role::state;
   for (std::size_t place = 0; place < target.size; ++place) {
     std::string value = expression(statement.value, place);

@@ -91,14 +91,14 @@ Lines value_lines(const UpdateLaw& law) {
   return lines;
 }
 
-Lines set_lines(const UpdateLaw& law, const std::string& name, const Lines& tune) {
+Lines set_lines(const UpdateLaw& law, const std::string& name, const Lines& set) {
   if (!law.tunable) return {"(void)self;", "(void)wanted;", "return 0u;"};
   Lines lines = {fmt::format("{}_update(self);", name), "unsigned clamped = 0u;"};
   const std::vector<Tunable> parameters = law.parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i)
     lines.push_back(fmt::format("clamped |= {0}_take_value(&{0}_ranges[{1}], wanted[{1}], &self->{2}) << {1};", name, i,
                                 law.variables[parameters[i].value].name));
-  lines.insert(lines.end(), tune.begin(), tune.end());
+  lines.insert(lines.end(), set.begin(), set.end());
   lines.push_back("return clamped;");
   return lines;
 }
@@ -136,12 +136,11 @@ CodeModel c_header_model(const Compilation& c) {
                     : "In the springs after the last update() [J].";
   model.lists["command"] = as_list(c99_command_header());
   add_program(program, model);
-  model.lists["functions"] = as_list(program.functions);
   model.lists["parameters"] = as_list(parameter_lines(c.law, name));
   model.lists["parameter_struct"] = as_list(parameter_struct(c.law, name));
   model.lists["value"] = as_list(value_lines(c.law));
   model.lists["box"] = as_list(box_lines(c, range, program.bounds));
-  model.lists["set"] = as_list(set_lines(c.law, name, program.tune));
+  model.lists["set"] = as_list(set_lines(c.law, name, program.set));
   model.lists["set_of_struct"] = as_list(set_of_struct(c.law, name));
   model.lists["share"] = as_list(program.kept_share.empty() ? Lines{"(void)self;", "return 1;"}
                                                             : Lines{fmt::format("return {};", program.kept_share)});

@@ -8,13 +8,12 @@
 #include "emit/response_test.hpp"
 #include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
-#include "lower/spell_out.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
 CodeModel header_model(const Compilation& c, Timing timing) {
-  const UpdateLaw law = timing == Timing::constant ? spelled_out(c.law, c.network.port_motion) : c.law;
+  const UpdateLaw& law = c.law;
   const CppProgram program = cpp_program(law, c.network, timing);
   CodeModel model;
   Fields& fields = model.fields;
@@ -43,7 +42,7 @@ void describe_outputs(const UpdateLaw& law, CodeModel& model) {
 }
 
 CodeModel batch_model(const Compilation& c) {
-  const UpdateLaw law = spelled_out(c.law, c.network.port_motion);
+  const UpdateLaw& law = c.law;
   const CppBatch batch = cpp_batch(law);
   CodeModel model;
   describe_file(c, model.fields);

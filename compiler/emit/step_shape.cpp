@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include "law/cost.hpp"
-#include "lower/spell_out.hpp"
 
 #include <algorithm>
 
@@ -15,12 +14,6 @@ std::size_t operations_of(const UpdateLaw& law) {
 
 // True, with an error, where the law's step is no list of statements.
 bool refuses(const Compilation& c, const char* option, Diagnostics& diagnostics) {
-  if (!can_be_spelled_out(c.law)) {
-    const auto tunable = std::find_if(c.network.parameters.begin(), c.network.parameters.end(),
-                                      [](const Parameter& p) { return p.tunable; });
-    diagnostics.report<DiagnosticCode::step_of_tunables>(tunable->span, tunable->name, option);
-    return true;
-  }
   if (c.law.couplings.empty() && c.law.networks.empty()) return false;
   diagnostics.report<DiagnosticCode::step_of_coupled_slips>(c.network.name_span, c.network.name, option);
   return true;

@@ -32,6 +32,8 @@ class Check {
     locals.clear();
     phase("tune", law_.tune, locals, {.inputs = false, .states = true, .locals = true});
     locals.clear();
+    phase("carry", law_.carry, locals, {.inputs = false, .states = true, .locals = true});
+    locals.clear();
     phase("update", law_.update, locals, {.inputs = false, .states = true, .locals = true});
     locals.clear();
     phase("energy", law_.energy, locals, {.inputs = false, .states = false, .locals = true});
@@ -107,7 +109,7 @@ class Check {
       require(law_.couplings.has(tree->coupling), "a step solves no coupling");
     if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
       require(law_.networks.has(network->network), "a step solves no network");
-    const bool calls = std::holds_alternative<CallTunable>(statement.step);
+    const bool calls = std::holds_alternative<Call>(statement.step);
     require(!calls || law_.tunable, "a call for tunables without their tables");
     require(law_.variables.has(statement.target) && (calls || law_.expressions.has(statement.value)),
             "a statement without target or value");
@@ -138,9 +140,10 @@ class Check {
   void check_assigned(const char* phase, VariableId id, std::set<VariableId>& locals, Rights rights) const {
     require(law_.variables.has(id), fmt::format("{} assigns no variable", phase));
     const Variable& variable = law_.variables[id];
-    require((variable.role == Role::state && rights.states) || (variable.role == Role::local && rights.locals) ||
-                (variable.role == Role::tuned && phase == std::string_view("tune")),
-            fmt::format("{} assigns '{}'", phase, variable.name));
+    require(
+        (variable.role == Role::state && rights.states) || (variable.role == Role::local && rights.locals) ||
+            (variable.role == Role::tuned && (phase == std::string_view("tune") || phase == std::string_view("carry"))),
+        fmt::format("{} assigns '{}'", phase, variable.name));
     if (variable.role == Role::local)
       require(locals.insert(id).second, fmt::format("{} assigns '{}' twice", phase, variable.name));
   }

@@ -1,5 +1,7 @@
 #include "law/cost.hpp"
 
+#include <stdexcept>
+
 #include "law/walk.hpp"
 
 namespace dashpot::compiler {
@@ -20,7 +22,7 @@ struct SolverOperations {
   void operator()(const Assign&) const {}
   void operator()(const SolveTree& step) const { add(cost.coupled, law.couplings[step.coupling].operations()); }
   void operator()(const SolveNetwork& step) const { add(cost.coupled, law.networks[step.network].operations()); }
-  void operator()(const CallTunable& step) const { cost.called += operations_of(*law.tunable, step.call); }
+  void operator()(const Call&) const { throw std::logic_error("cost: a call that is not spelled out"); }
   static void add(std::size_t& sum, int operations) { sum += static_cast<std::size_t>(operations); }
 };
 
@@ -41,7 +43,7 @@ Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
 }
 
 std::size_t operations_of(const Cost& cost) {
-  return cost.additions + cost.multiplications + cost.selections + cost.guards + cost.coupled + cost.called;
+  return cost.additions + cost.multiplications + cost.selections + cost.guards + cost.coupled;
 }
 
 }  // namespace dashpot::compiler

@@ -11,7 +11,6 @@ struct Cost {
   std::size_t selections = 0;  // clamps and choices
   std::size_t guards = 0;      // against subnormals
   std::size_t coupled = 0;     // operations of coupled slips at most: additions, multiplications, divisions
-  std::size_t called = 0;      // likewise of calls for tunables
   std::size_t states = 0;
 };
 Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program);

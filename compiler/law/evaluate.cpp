@@ -3,11 +3,19 @@
 #include <dashpot/elementary.hpp>
 #include <dashpot/exponential.hpp>
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace dashpot::compiler {
 
 template <class Scalar>
+tunable_range<Scalar> Evaluation<Scalar>::range_of(const Tunable& parameter) {
+  const tunable_range<double>& range = parameter.range;
+  return {static_cast<Scalar>(range.value), static_cast<Scalar>(range.min), static_cast<Scalar>(range.max)};
+}
+
+template <class Scalar>
 Evaluation<Scalar>::Evaluation(const UpdateLaw& law) : law_(law) {
-  if (law.tunable) tunable_ = std::make_unique<TunableRun<Scalar>>(*law.tunable);
   for (const Variable& variable : law.variables)
     variables_.emplace_back(variable.size, static_cast<Scalar>(variable.rest_value));
   for (const Tunable& parameter : law.parameters()) at(parameter.value)[0] = static_cast<Scalar>(parameter.range.value);
@@ -17,6 +25,7 @@ Evaluation<Scalar>::Evaluation(const UpdateLaw& law) : law_(law) {
   for (const Coupling& coupling : law.couplings) solvers_.push_back(solver_of(coupling));
   for (const SlipNetwork& network : law.networks) network_solvers_.push_back(solver_of(network));
   run(law.tune);
+  run(law.carry);
   run(law.rest);
 }
 
@@ -110,8 +119,9 @@ unsigned Evaluation<Scalar>::set(const std::vector<Scalar>& values) {
   const std::vector<Tunable> parameters = law_.parameters();
   unsigned clamped = 0;
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    clamped |= take_value(converted<Scalar>(parameters[i].range), values[i], at(parameters[i].value)[0]) << i;
+    clamped |= take_value(range_of(parameters[i]), values[i], at(parameters[i].value)[0]) << i;
   run(law_.tune);
+  run(law_.carry);
   return clamped;
 }
 
@@ -203,18 +213,22 @@ void Evaluation<Scalar>::take(const SolveNetwork& step, const Statement& stateme
 }
 
 template <class Scalar>
-void Evaluation<Scalar>::take(const CallTunable& step, const Statement& statement) {
-  std::vector<Scalar> given;
-  for (const ExpressionId expression : step.given) given.push_back(value(expression, 0));
-  const TunableAnswer<Scalar> answer = tunable_->call(step.call, given);
-  at(statement.target)[0] = answer.of(step.result);
-  for (const auto& [result, variable] : step.found) at(variable)[0] = answer.of(result);
+void Evaluation<Scalar>::take(const Call&, const Statement&) {
+  throw std::logic_error("evaluate: a call that is not spelled out");
 }
 
 template <class Scalar>
 void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, const Statement& statement) {
   for (std::size_t i = 0; i < coupling.held.size(); ++i)
     solver.held[i] = coupling.held[i] == no_variable ? Scalar(0) : at(coupling.held[i])[0];
+  const auto tune = [&](VariableId tuned, Scalar& number) {
+    if (tuned != no_variable) number = at(tuned)[0];
+  };
+  for (std::size_t i = 0; i < coupling.tuned.size(); ++i) {
+    tune(coupling.tuned[i].stiffness, solver.nodes[i].stiffness);
+    tune(coupling.tuned[i].compliance, solver.nodes[i].compliance);
+    tune(coupling.tuned[i].yield, solver.nodes[i].yield);
+  }
   slip_tree<Scalar> tree(solver.nodes.data(), coupling.node_count(), solver.parts.data(), solver.corners.data(),
                          solver.merged.data());
   const Scalar change = value(statement.value, 0);
@@ -233,15 +247,33 @@ void Evaluation<Scalar>::solve(const SlipNetwork& network, NetworkSolver& solver
   for (std::size_t i = 0; i < network.held.size(); ++i)
     solver.held[i] = network.held[i] == no_variable ? Scalar(0) : at(network.held[i])[0];
   for (std::size_t i = 0; i < network.sign.size(); ++i) solver.sign[i] = static_cast<int>(at(network.last_sign[i])[0]);
-  slip_network<Scalar> step(
-      solver.links.data(), network.slip_count(),
-      {solver.between.data(), solver.to_tool.data(), solver.to_ground.data(), static_cast<Scalar>(network.through)},
-      network.node_count, {solver.group.data(), solver.room.data(), solver.numbers.data()});
+  const Scalar through = tune(network, solver);
+  slip_network<Scalar> step(solver.links.data(), network.slip_count(),
+                            {solver.between.data(), solver.to_tool.data(), solver.to_ground.data(), through},
+                            network.node_count, {solver.group.data(), solver.room.data(), solver.numbers.data()});
   at(statement.target)[0] =
       step.step(value(statement.value, 0), solver.held.data(), solver.moved.data(), solver.sign.data());
   for (std::size_t i = 0; i < network.moved.size(); ++i)
     if (network.moved[i] != no_variable) at(network.moved[i])[0] = solver.moved[i];
   for (std::size_t i = 0; i < network.sign.size(); ++i) at(network.sign[i])[0] = static_cast<Scalar>(solver.sign[i]);
+}
+
+// The numbers that parameters change. Returns what joins tool and ground.
+template <class Scalar>
+Scalar Evaluation<Scalar>::tune(const SlipNetwork& network, NetworkSolver& solver) const {
+  if (!network.tuned) return static_cast<Scalar>(network.through);
+  const TunedNetwork& tuned = *network.tuned;
+  for (std::size_t i = 0; i < tuned.yields.size(); ++i)
+    if (tuned.yields[i] != no_variable) {
+      solver.links[i].highest = at(tuned.yields[i])[0];
+      solver.links[i].lowest = -solver.links[i].highest;
+    }
+  for (const auto& [numbers, values] :
+       {std::pair(&tuned.between, &solver.between), std::pair(&tuned.to_tool, &solver.to_tool),
+        std::pair(&tuned.to_ground, &solver.to_ground)})
+    for (std::size_t i = 0; i < numbers->size(); ++i)
+      if ((*numbers)[i] != no_variable) (*values)[i] = at((*numbers)[i])[0];
+  return tuned.through == no_variable ? static_cast<Scalar>(network.through) : at(tuned.through)[0];
 }
 
 template <class Scalar>

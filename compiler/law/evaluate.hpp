@@ -4,10 +4,8 @@
 
 #include <dashpot/command.hpp>
 
-#include <memory>
 #include <vector>
 
-#include "law/tunable_run.hpp"
 #include "law/update_law.hpp"
 
 namespace dashpot::compiler {
@@ -57,16 +55,18 @@ class Evaluation {
     std::vector<Scalar> room, numbers;
   };
 
+  static tunable_range<Scalar> range_of(const Tunable& parameter);
   static Solver solver_of(const Coupling& coupling);
   static NetworkSolver solver_of(const SlipNetwork& network);
   void run(const std::vector<Statement>& program);
   void take(const Assign& step, const Statement& statement);
   void take(const SolveTree& step, const Statement& statement);
   void take(const SolveNetwork& step, const Statement& statement);
-  void take(const CallTunable& step, const Statement& statement);
+  void take(const Call& step, const Statement& statement);
   void take_turn(const GuardInTurn& guard, std::size_t& turn);
   void solve(const Coupling& coupling, Solver& solver, const Statement& statement);
   void solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement);
+  Scalar tune(const SlipNetwork& network, NetworkSolver& solver) const;
   Scalar rest_position(Scalar position);  // of a finite position
   void start();                           // every port, where the inputs are
   Scalar damping(VariableId changing) const;
@@ -77,7 +77,6 @@ class Evaluation {
   const std::vector<Scalar>& at(CoefficientId id) const { return coefficients_[id.place()]; }
 
   const UpdateLaw& law_;
-  std::unique_ptr<TunableRun<Scalar>> tunable_;  // where the law calls for it
   std::vector<std::vector<Scalar>> variables_;
   std::vector<std::vector<Scalar>> coefficients_;
   std::vector<std::size_t> turns_;  // of each guard, the first place that it takes next

@@ -7,20 +7,11 @@
 namespace dashpot::compiler {
 namespace {
 
-std::string call_text(const UpdateLaw& law, const CallTunable& call, const Spelling& spelling) {
-  std::string given, found;
-  for (ExpressionId id : call.given) given += (given.empty() ? "" : ", ") + expression_text(law, id, spelling);
-  for (const auto& [result, id] : call.found) found += ", " + law.variables[id].name;
-  return fmt::format("{}({}){}{}", name_of(call.call), given, found.empty() ? "" : " with ",
-                     found.substr(found.empty() ? 0 : 2));
-}
-
 std::string value_text(const UpdateLaw& law, const Statement& statement) {
   Spelling spelling;
   spelling.variable = [&](VariableId id) { return law.variables[id].name; };
   spelling.coefficient = [&](CoefficientId id) { return law.coefficients[id].name; };
   spelling.sum = [&](VariableId id) { return "sum(" + law.variables[id].name + ")"; };
-  if (const auto* call = std::get_if<CallTunable>(&statement.step)) return call_text(law, *call, spelling);
   const std::string value = expression_text(law, statement.value, spelling);
   if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
     return fmt::format("{}({})", law.networks[network->network].name, value);
@@ -88,11 +79,11 @@ std::string tunable_text(const TunableTables& tables) {
   std::string text = fmt::format("damping follows {}\n", tables.brake.text);
   for (const Tunable& t : tables.tunables)
     text += fmt::format("tunable {} [{}] {}, {} to {}\n", t.name, t.unit, t.range.value, t.range.min, t.range.max);
-  for (const tunable_part& part : tables.parts) {
+  for (const BlockPart& part : tables.parts) {
     if (part.spring != no_index)
       text += fmt::format("part with spring {}\n", tables.spring_names[static_cast<std::size_t>(part.spring)]);
-    if (part.kind == tunable_kind::damper) text += "part with a damper\n";
-    if (part.kind == tunable_kind::mesh)
+    if (part.kind == PartKind::damper) text += "part with a damper\n";
+    if (part.kind == PartKind::mesh)
       text += fmt::format("part of {} nodes and {} edges\n", part.node_count, part.edge_count);
   }
   return text;
@@ -121,7 +112,7 @@ std::string to_text(const UpdateLaw& law, const Network& network) {
                         law.variables[guard.state].name, law.flush_threshold);
   return text + program_text(law, "output", law.output) + program_text(law, "keep", law.keep) +
          program_text(law, "update", law.update) + program_text(law, "energy", law.energy) +
-         (law.tunable ? program_text(law, "tune", law.tune) : "");
+         (law.tunable ? program_text(law, "tune", law.tune) + program_text(law, "carry", law.carry) : "");
 }
 
 }  // namespace dashpot::compiler

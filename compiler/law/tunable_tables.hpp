@@ -1,8 +1,9 @@
-// What a law with tunable parameters has beside its programs: the parameters, and the tables of dashpot::tunable_law
-// (theory, section 6, "Changing parameters while running").
+// What a law with tunable parameters has beside its programs: the parameters, and the network's structure, from which
+// lower/spell_out writes what its calls stand for (theory, section 6, "Changing parameters while running").
 #pragma once
 
-#include <dashpot/tunable/tables.hpp>
+#include <dashpot/slip_tree.hpp>
+#include <dashpot/tunable_range.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -17,8 +18,8 @@ namespace dashpot::compiler {
 
 struct Variable;
 
-// What dashpot::tunable_law is called for with the law's tables.
-enum class TunableCall : std::uint8_t {
+// What a call stands for.
+enum class Callee : std::uint8_t {
   set,            // with the law's numbers: g of what joins tool and ground without a slip, but for dampers and meshes
   meshes,         // what that has found of the meshes among them
   viscosity,      // theirs at low frequency, with the law's numbers
@@ -34,10 +35,113 @@ enum class TunableCall : std::uint8_t {
   stored_energy,  // in the springs, and set free by changes of parameters
 };
 
-std::string_view name_of(TunableCall call);
+// What a part of a block is. Parts stand in parallel.
+enum class PartKind : std::uint8_t {
+  spring,      // p = k (z − r)
+  damper,      // p = B ż
+  relaxation,  // a spring and a damper in series
+  mesh,        // springs and dampers between inner nodes
+};
 
-// Whether it is given all numbers of the law.
-inline bool takes_numbers(TunableCall call) { return call == TunableCall::set || call == TunableCall::viscosity; }
+inline constexpr int no_index = -1;
+inline constexpr int mesh_port = -1;  // the ends of a mesh, in the place of a node
+inline constexpr int mesh_held = -2;
+
+struct BlockPart {
+  PartKind kind;
+  int spring;      // into springs; of a mesh none
+  int damping;     // number of a damper or relaxation [N·s/m]
+  int share;       // number φ of a relaxation: what a displacement within a sample leaves in its spring [1]
+  int loss;        // number α of a relaxation: what is lost in a sample [1]
+  int first_node;  // of a mesh, as are those below
+  int node_count;
+  int first_edge;
+  int edge_count;
+  bool is_loose;  // a spring in series with a slip, so that its rest length means nothing
+};
+
+// A spring or a damper of a mesh between two of its nodes, counted from the mesh's first; `from` is the end at the
+// port's side.
+struct MeshEdge {
+  int from;
+  int to;
+  int spring;   // into springs, or none
+  int damping;  // a number, or none
+};
+
+struct TunableBlock {
+  int first_part;
+  int part_count;
+  double least_stiffness;  // behind a slip no softer [N/m]
+};
+
+// Yield force of a slip: the least of numbers[cuts[first]] …, one number for each way to cut it through.
+struct TunableYield {
+  int first_cut;
+  int cut_count;
+  double least;  // no less, whatever the numbers are [N]
+};
+
+// Slips that are stepped together: nodes of the tree, blocks in the order of their places, slips likewise.
+struct TunableCoupling {
+  int first_node;
+  int node_count;
+  int first_block;
+  int first_slip;
+};
+
+// What a block or a slip is between where slips meet in no tree: inner ends by their number from 0, then the tool, then
+// the ground.
+struct TunableEnds {
+  int from;
+  int to;
+};
+
+// Slips that are stepped together and meet in no tree, and the blocks between their ends, one a tie. With a contact the
+// last inner end is the surface.
+struct TunableGraph {
+  int end_count;  // inner ones
+  int link_count;
+  int first_slip;  // into slips and links
+  int tie_count;
+  int first_tie;
+  int first_block;
+};
+
+// The surface that the tool pushes and cannot pull, if there is one.
+struct TunableContact {
+  bool is_there;
+  double at;            // where it lies unloaded [m]
+  double encoder_step;  // how far the gap may open before the command lets go [m]
+};
+
+// What slips leave to the brake.
+struct TunableSlipRule {
+  bool takes_part;
+  double hysteresis;  // of the tool's displacement, before a slide has ended for the command [m]
+  double coil_share;  // κ: of what is missing from √b, that the coil makes up in a sample [1]
+};
+
+// The map of a static curve that the network lies behind, if there is one. Nothing is held there that the bend of the
+// curve cannot pay for (theory, section 11).
+struct TunableMap {
+  bool is_there;
+  double largest_change;     // of w while a force is held, at the largest speed [m]
+  double largest_stiffness;  // of the spring that joins tool and ground directly, whatever is set [N/m]
+};
+
+// Block 0 is what joins tool and ground without a slip. With a contact and slips it is a part of the one coupling or
+// graph.
+struct TunableHead {
+  double rate;        // 1/T [Hz]
+  double retention;   // what an offset keeps in a sample where the tank pays [1]
+  int static_spring;  // the spring that joins tool and ground directly, or none
+  TunableContact contact;
+  TunableSlipRule slip_rule;
+  double motor_limit = 0;  // of its force; 0: none [N]
+  double motor_step = 0;   // of its change in a period; 0: none [N]
+  TunableMap map = {false, 0, 0};
+};
 
 struct Tunable {
   std::string name;
@@ -89,40 +193,37 @@ struct TunableBrake {
 
 // Numbers are already rounded to the law's scalar type.
 struct TunableTables {
-  tunable_tables<double> head = {};  // without its arrays, which are those below
+  TunableHead head = {};
   std::vector<Tunable> tunables;
   std::vector<TunableNumber> numbers;
   std::vector<int> springs;
   std::vector<std::string> spring_names;              // for remarks
   std::vector<std::optional<FixedRelaxation>> fixed;  // one a spring
-  std::vector<tunable_part> parts;
-  std::vector<tunable_edge> edges;
-  std::vector<tunable_block<double>> blocks;
+  std::vector<BlockPart> parts;
+  std::vector<MeshEdge> edges;
+  std::vector<TunableBlock> blocks;
+  std::vector<std::string> block_names;  // of their elements
   std::vector<int> cuts;
-  std::vector<tunable_yield<double>> yields;
-  std::vector<tunable_coupling> couplings;
+  std::vector<TunableYield> yields;
+  std::vector<std::string> slip_names;                  // one a yield force
+  std::vector<std::vector<std::size_t>> slip_elements;  // the same, indices into Network::elements
+  std::vector<TunableCoupling> couplings;
   std::vector<slip_node<double>> nodes;
-  std::vector<tunable_graph> graphs;
-  std::vector<tunable_ends> links;  // of slips in trees nothing
-  std::vector<tunable_ends> ties;
+  std::vector<TunableGraph> graphs;
+  std::vector<TunableEnds> links;  // of slips in trees nothing
+  std::vector<TunableEnds> ties;
   int mesh_nodes = 0;
-  int corners = 0;
   int ends = 0;  // of the largest graph
   TunableBrake brake;
   bool is_exact = true;    // relaxations by the exact scheme, else backward Euler; meshes always by the latter
   double least_share = 0;  // of its greatest value: behind a slip no part is softer, no slip yields sooner [1]
-  std::vector<std::string> mesh_elements;            // whose states are kept by backward Euler, for people
-  int operations(const tunable_graph& graph) const;  // of a step, at most
+  std::vector<std::string> mesh_elements;  // whose states are kept by backward Euler, for people
+  bool has_slips() const { return !yields.empty(); }
   bool sheds() const { return head.motor_limit > 0 || head.motor_step > 0; }
 };
 
-// What evaluate() has room for; refused beyond.
-inline constexpr int most_tunables = 32, most_tunable_modes = 16, most_tunable_slips = 8, most_tunable_springs = 64,
-                     most_tunable_nodes = 32, most_tunable_blocks = 24, most_tunable_slip_parts = 64,
-                     most_tunable_corners = 512, most_tunable_ends = 16;
-
-// Additions, multiplications, divisions at most, of a call; of `set` without what the springs' energy takes.
-std::size_t operations_of(const TunableTables& tables, TunableCall call);
-std::size_t operations_of_energy(const TunableTables& tables);
+// Refused beyond: set() tells of each parameter by a bit, what mixes several relaxations grows with the third power of
+// their nodes, and slips outside a tree have thrice the patterns with each.
+inline constexpr int most_tunables = 32, most_tunable_nodes = 32, most_tunable_slips = 8, most_tunable_ends = 16;
 
 }  // namespace dashpot::compiler

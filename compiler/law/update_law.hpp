@@ -121,15 +121,13 @@ struct SolveNetwork {
 };
 
 // What a call returns: its value, or members of it.
-enum class TunableResult : std::uint8_t { value, stiffness, feedthrough, damping, force, change, now, wanted, share };
+enum class CallResult : std::uint8_t { value, stiffness, feedthrough, damping, force, change, now, wanted, share };
 
-std::string_view name_of(TunableResult result);
-
-struct CallTunable {
-  TunableCall call;
-  std::vector<ExpressionId> given = {};         // without operations: read once more wherever they are written
-  TunableResult result = TunableResult::value;  // of the target
-  std::vector<std::pair<TunableResult, VariableId>> found = {};  // assigned beside it
+struct Call {
+  Callee callee;
+  std::vector<ExpressionId> given = {};   // without operations: read once more wherever they are written
+  CallResult result = CallResult::value;  // of the target
+  std::vector<std::pair<CallResult, VariableId>> found = {};  // assigned beside it
 };
 
 struct Statement {
@@ -137,9 +135,14 @@ struct Statement {
   ExpressionId value;                             // nothing of a call
   std::string purpose;                            // the equation, as the literature writes it
   std::vector<std::vector<std::size_t>> origins;  // for each place of the target, indices into Network::elements
-  std::variant<Assign, SolveTree, SolveNetwork, CallTunable> step = Assign{};
+  std::variant<Assign, SolveTree, SolveNetwork, Call> step = Assign{};
 
   bool assigns() const { return std::holds_alternative<Assign>(step); }
+};
+
+// The numbers of a node where parameters change them; no_variable where the node's own number holds.
+struct TunedNode {
+  VariableId stiffness = no_variable, compliance = no_variable, yield = no_variable;
 };
 
 // Slips that meet at inner nodes, with the blocks between them: one step is dashpot::slip_tree (theory, section 5).
@@ -151,6 +154,7 @@ struct Coupling {
   std::vector<std::vector<std::size_t>> slips;  // of each slip, indices into Network::elements
   std::vector<VariableId> sign;             // local, of each slip: −1, 0 or 1; no_variable where nothing follows it
   VariableId surface_change = no_variable;  // local, of a tree that is pushed and not pulled: Δs [m]
+  std::vector<TunedNode> tuned = {};        // one a node; none where no parameter changes them
 
   bool is_pushed() const { return surface_change != no_variable; }
   int node_count() const { return static_cast<int>(nodes.size()); }
@@ -159,6 +163,13 @@ struct Coupling {
     return is_pushed() ? slip_tree_push_operations(nodes.data(), node_count())
                        : slip_tree_operations(nodes.data(), node_count());
   }
+};
+
+// The numbers of a slip network where parameters change them; no_variable where its own number holds.
+struct TunedNetwork {
+  std::vector<VariableId> yields;  // of every link, to either side
+  std::vector<VariableId> between, to_tool, to_ground;
+  VariableId through = no_variable;
 };
 
 // Slips that meet where a network is no tree: one step is dashpot::slip_network. Ends are numbered as there.
@@ -172,6 +183,7 @@ struct SlipNetwork {
   std::vector<VariableId> moved;      // local, of every inner end [m]
   std::vector<VariableId> sign;       // local, of every slip: −1, 0 or 1
   std::vector<VariableId> last_sign;  // the states that remember them
+  std::optional<TunedNetwork> tuned = {};
 
   int slip_count() const { return static_cast<int>(links.size()); }
   int patterns() const { return slip_network_patterns(links.data(), slip_count()); }
@@ -234,7 +246,8 @@ struct UpdateLaw {
   std::vector<Statement> energy;    // ends with the assignment of `stored`
   std::vector<Statement> start;     // of reset(): locals of the position, where `started_at` or `starts` need them
   std::vector<Statement> rest;      // of reset(): states that do not rest at a constant, after all others
-  std::vector<Statement> tune;  // of set(), with the parameters' new values: all that is tuned, and states that follow
+  std::vector<Statement> tune;      // of set(), with the parameters' new values: all that is tuned
+  std::vector<Statement> carry;     // of set(), after that: states that follow
 
   std::optional<JointPorts> joints;  // of a law of several joints
 

@@ -12,12 +12,22 @@ struct SolverReads {
   const UpdateLaw& law;
   const VisitVariable& visit;
   void operator()(const Assign&) const {}
-  void operator()(const SolveTree& step) const { visit_all(law.couplings[step.coupling].held, visit); }
-  void operator()(const SolveNetwork& step) const {
-    visit_all(law.networks[step.network].held, visit);
-    visit_all(law.networks[step.network].last_sign, visit);
+  void operator()(const SolveTree& step) const {
+    const Coupling& coupling = law.couplings[step.coupling];
+    visit_all(coupling.held, visit);
+    for (const TunedNode& node : coupling.tuned) visit_all({node.stiffness, node.compliance, node.yield}, visit);
   }
-  void operator()(const CallTunable& step) const {
+  void operator()(const SolveNetwork& step) const {
+    const SlipNetwork& network = law.networks[step.network];
+    visit_all(network.held, visit);
+    visit_all(network.last_sign, visit);
+    if (!network.tuned) return;
+    for (const auto* numbers :
+         {&network.tuned->yields, &network.tuned->between, &network.tuned->to_tool, &network.tuned->to_ground})
+      visit_all(*numbers, visit);
+    visit_all({network.tuned->through}, visit);
+  }
+  void operator()(const Call& step) const {
     for (const ExpressionId given : step.given) each_read(law, given, visit);
   }
 };
@@ -36,7 +46,7 @@ struct SolverAssigns {
     visit_all(law.networks[step.network].moved, visit);
     visit_all(law.networks[step.network].sign, visit);
   }
-  void operator()(const CallTunable& step) const {
+  void operator()(const Call& step) const {
     for (const auto& [result, variable] : step.found) visit(variable);
   }
 };

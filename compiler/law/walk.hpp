@@ -5,6 +5,7 @@
 #include <functional>
 #include <set>
 #include <span>
+#include <vector>
 
 #include "law/update_law.hpp"
 
@@ -27,7 +28,7 @@ void each_expression(const UpdateLaw& law, ExpressionId id, const Visit& visit) 
 template <class Visit>
 void each_expression(const UpdateLaw& law, const Statement& statement, const Visit& visit) {
   each_expression(law, statement.value, visit);
-  if (const auto* call = std::get_if<CallTunable>(&statement.step))
+  if (const auto* call = std::get_if<Call>(&statement.step))
     for (const ExpressionId given : call->given) each_expression(law, given, visit);
 }
 
@@ -46,8 +47,15 @@ bool reads(const UpdateLaw& law, const std::vector<Statement>& program, Variable
 std::set<CoefficientId> constants_read(const UpdateLaw& law);
 bool uses(const UpdateLaw& law, Operation operation);
 
-inline std::array<const std::vector<Statement>*, 5> programs(const UpdateLaw& law) {
-  return {&law.output, &law.keep, &law.update, &law.energy, &law.tune};
+inline std::array<const std::vector<Statement>*, 6> programs(const UpdateLaw& law) {
+  return {&law.output, &law.keep, &law.update, &law.energy, &law.tune, &law.carry};
+}
+
+// All that set() runs, in its order.
+inline std::vector<Statement> set_program(const UpdateLaw& law) {
+  std::vector<Statement> all = law.tune;
+  all.insert(all.end(), law.carry.begin(), law.carry.end());
+  return all;
 }
 
 }  // namespace dashpot::compiler

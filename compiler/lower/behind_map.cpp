@@ -141,7 +141,7 @@ class Mapping {
   static void each_value(std::vector<Statement>& program, const Changed& changed) {
     for (Statement& statement : program) {
       if (statement.value != nothing) statement.value = changed(statement.value);
-      if (auto* call = std::get_if<CallTunable>(&statement.step))
+      if (auto* call = std::get_if<Call>(&statement.step))
         for (ExpressionId& given : call->given) given = changed(given);
     }
   }

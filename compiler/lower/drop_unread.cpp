@@ -28,7 +28,7 @@ bool drop_once(UpdateLaw& law) {
     for (VariableId& sign : coupling.sign)
       if (read.count(sign) == 0) sign = no_variable;
   std::size_t dropped = 0;
-  for (auto* program : {&law.output, &law.update, &law.energy, &law.tune, &law.rest})
+  for (auto* program : {&law.output, &law.update, &law.energy, &law.tune, &law.carry, &law.rest})
     dropped += std::erase_if(*program, [&](const Statement& statement) {
       return law.variables[statement.target].role == Role::local && read.count(statement.target) == 0;
     });

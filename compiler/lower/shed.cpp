@@ -220,8 +220,7 @@ UpdateLaw told_of_motor(UpdateLaw law, const MotorReach& reach, motion port_moti
   const auto told =
       std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == law.force; });
   told->target = law.wanted;
-  const CallTunable limit = {
-      TunableCall::limit, {writer.read(law.wanted)}, TunableResult::force, {{TunableResult::share, share}}};
+  const Call limit = {Callee::limit, {writer.read(law.wanted)}, CallResult::force, {{CallResult::share, share}}};
   law.output.insert(told + 1, {law.force, nothing, "m within the motor's limits", {}, limit});
   law.share = writer.kept(share);
   check_law(law, "shedding");

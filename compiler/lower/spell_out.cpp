@@ -7,10 +7,12 @@
 
 #include "discretise/law_writer.hpp"
 #include "law/check_law.hpp"
+#include "law/evaluate.hpp"
 #include "law/walk.hpp"
 #include "lower/drop_unread.hpp"
 #include "lower/spelled_mesh.hpp"
 #include "lower/spelled_numbers.hpp"
+#include "lower/spelled_slips.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -37,22 +39,46 @@ class SpellingOut {
         writer_(law_, port_motion),
         tables_(*law_.tunable),
         head_(tables_.head),
-        numbers_(writer_) {}
+        numbers_(writer_),
+        slips_(numbers_, tables_, blocks_) {}
 
   UpdateLaw result() {
     find_given();
     declare();
-    for (std::vector<Statement>* program : {&law_.tune, &law_.output, &law_.update, &law_.energy, &law_.rest})
+    numbers_.begin(law_.tune);
+    spell_out(law_.tune);
+    numbers_.go_on(law_.carry);
+    spell_out(law_.carry);
+    for (std::vector<Statement>* program : {&law_.output, &law_.update, &law_.energy, &law_.rest}) {
+      numbers_.begin(*program);
       spell_out(*program);
+    }
     check_law(law_, "spelling out");
-    return without_unread_locals(std::move(law_));
+    UpdateLaw law = without_unread_locals(std::move(law_));
+    law.scalar == ScalarType::float32 ? start<float>(law) : start<double>(law);
+    return law;
   }
 
  private:
+  // What set() and reset() find for the values that are there to begin with, so that a new law needs neither.
+  template <class Scalar>
+  static void start(UpdateLaw& law) {
+    const Evaluation<Scalar> at_first(law);
+    for (Variable& variable : law.variables)
+      if (variable.role == Role::tuned) variable.rest_value = at_first.value_of(law.variables.id_of(variable));
+    for (const Statement& statement : law.rest)
+      each_assigned(law, statement, [&](VariableId assigned) {
+        Variable& variable = law.variables[assigned];
+        if (variable.role == Role::state) variable.rest_value = at_first.value_of(assigned);
+      });
+  }
+
   void find_given() {
     for (const Statement& statement : law_.tune)
-      if (const auto* call = std::get_if<CallTunable>(&statement.step); call && call->call == TunableCall::set)
+      if (const auto* call = std::get_if<Call>(&statement.step); call && call->callee == Callee::set)
         given_ = call->given;
+    for (const Statement& statement : law_.carry)
+      if (std::holds_alternative<Call>(statement.step)) held_force_ = statement.target;
   }
 
   void declare() {
@@ -76,8 +102,9 @@ class SpellingOut {
       if (is_behind_map() && spring.changes)
         spring.sampled = state(spring, "sampled_elongation", writer_.length(), "z of the last sample");
     }
-    each_part([&](const tunable_part& part) {
-      if (part.kind == tunable_kind::mesh) meshes_.emplace(&part, SpelledMesh(numbers_, part, tables_.edges));
+    declare_blocks();
+    each_part([&](const BlockPart& part) {
+      if (part.kind == PartKind::mesh) meshes_.emplace(&part, SpelledMesh(numbers_, part, tables_.edges));
       each_spring(part, [&](SpringNames& spring) {
         if (keeps_offset(part) && (spring.changes || (sheds() && !has_contact())))
           spring.offset = state(spring, "offset", writer_.length(), "r, how far its rest length is from home");
@@ -97,8 +124,22 @@ class SpellingOut {
       shed_ = numbers_.scalar("shed", "1", "1 where an offset is left of forces that were shed", Role::state);
     if (head_.motor_step > 0)
       last_command_ = numbers_.scalar("last_command", writer_.force(), "m of the sample before", Role::state);
-    if (has_contact())
+    if (comes_back())
       dent_ = numbers_.scalar("dent", writer_.length(), "of the surface, by what was shed", Role::state);
+  }
+
+  // Behind slips what blocks hold is found once a sample, and remembered for the solvers.
+  void declare_blocks() {
+    for (std::size_t i = 0; i < tables_.blocks.size(); ++i) {
+      blocks_.push_back({tables_.block_names[i]});
+      bool has_springs = false;
+      each_part_of(i, [&](const BlockPart& part) { has_springs |= part.kind != PartKind::damper; });
+      if (i == 0) blocks_[i].held = held_force_;
+      else if (has_springs)
+        blocks_[i].held =
+            numbers_.scalar(joined(blocks_[i].name, "held"), writer_.force(), "π, what the block holds", Role::state);
+    }
+    slips_.declare();
   }
 
   VariableId state(const SpringNames& spring, const char* what, const std::string& unit, const char* meaning) {
@@ -107,6 +148,8 @@ class SpellingOut {
 
   bool sheds() const { return tables_.sheds(); }
   bool has_contact() const { return head_.contact.is_there; }
+  // A surface that something elastic holds, and not slips alone, which stay where they are.
+  bool comes_back() const { return has_contact() && (head_.static_spring != no_index || !tables_.has_slips()); }
   bool has_offsets() const {
     return std::any_of(springs_.begin(), springs_.end(), [](const SpringNames& s) { return s.offset != nothing; });
   }
@@ -115,16 +158,22 @@ class SpellingOut {
   }
 
   // Between tool and ground, or in a mesh: else what is next to the spring makes room.
-  static bool keeps_offset(const tunable_part& part) {
-    return part.kind == tunable_kind::mesh || (part.kind == tunable_kind::spring && !part.is_loose);
+  static bool keeps_offset(const BlockPart& part) {
+    return part.kind == PartKind::mesh || (part.kind == PartKind::spring && !part.is_loose);
   }
 
   template <class Visit>
   void each_part(Visit visit) {
-    for (const tunable_part& part : tables_.parts) visit(part);
+    for (const BlockPart& part : tables_.parts) visit(part);
   }
   template <class Visit>
-  void each_spring(const tunable_part& part, Visit visit) {
+  void each_part_of(std::size_t block, Visit visit) {
+    const TunableBlock& parts = tables_.blocks[block];
+    for (int i = parts.first_part; i < parts.first_part + parts.part_count; ++i)
+      visit(tables_.parts[static_cast<std::size_t>(i)]);
+  }
+  template <class Visit>
+  void each_spring(const BlockPart& part, Visit visit) {
     if (part.spring != no_index) visit(springs_[static_cast<std::size_t>(part.spring)]);
     for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i)
       if (const int spring = tables_.edges[static_cast<std::size_t>(i)].spring; spring != no_index)
@@ -135,45 +184,94 @@ class SpellingOut {
 
   void spell_out(std::vector<Statement>& program) {
     const std::vector<Statement> statements = std::exchange(program, {});
-    numbers_.begin(program);
     for (const Statement& statement : statements)
-      if (const auto* call = std::get_if<CallTunable>(&statement.step)) write(statement, *call);
+      if (const auto* call = std::get_if<Call>(&statement.step)) write(statement, *call);
       else program.push_back(statement);
   }
 
-  void write(const Statement& at, const CallTunable& call) {
-    switch (call.call) {
-      case TunableCall::set: return write_set(at.target);
-      case TunableCall::meshes: return write_meshes(at, call);
-      case TunableCall::viscosity: return write_viscosity(at.target);
-      case TunableCall::held: return assign(at.target, held(), "π");
-      case TunableCall::reset: return write_reset(at.target, call.given[0]);
-      case TunableCall::limit: return write_limit(at, call);
-      case TunableCall::follow: return write_follow(at.target, call.given[0], call.given[1]);
-      case TunableCall::update: return write_update(at.target, call.given[0], call.given[1]);
-      case TunableCall::stored_energy: return write_energy(at.target, at.purpose);
-      case TunableCall::resting_brake:
-      case TunableCall::slip:
-      case TunableCall::push:
-      case TunableCall::slip_brake: throw std::logic_error("spelling out: a solver of slips");
+  void write(const Statement& at, const Call& call) {
+    switch (call.callee) {
+      case Callee::set: return write_set(at.target);
+      case Callee::meshes: return write_meshes(at, call);
+      case Callee::viscosity: return write_viscosity(at.target);
+      case Callee::held: return write_carrying(at.target);
+      case Callee::reset: return write_reset(at.target, call.given[0]);
+      case Callee::limit: return write_limit(at, call);
+      case Callee::follow: return write_follow(at.target, call.given[0], call.given[1]);
+      case Callee::update: return write_update(at.target, call.given[0], call.given[1]);
+      case Callee::stored_energy: return write_energy(at.target, at.purpose);
+      case Callee::resting_brake: return slips_.write_resting_brake(at.target, call.given[0]);
+      case Callee::slip: return slips_.write_step(at.target, call.given[0]);
+      case Callee::push: return slips_.write_push(at.target, call.given[0], found(call, CallResult::change));
+      case Callee::slip_brake:
+        return slips_.write_brake({at.target, found(call, CallResult::damping), found(call, CallResult::wanted)},
+                                  writer_.reads(call.given[0]), call.given[1]);
     }
   }
 
-  // set(): what springs answer in a sample, and their forces once more.
+  static VariableId found(const Call& call, CallResult wanted) {
+    for (const auto& [result, variable] : call.found)
+      if (result == wanted) return variable;
+    return no_variable;
+  }
+
+  // set(): what springs answer in a sample.
   void write_set(VariableId target) {
+    ExpressionId sum = nothing;
+    each_part([&](const BlockPart& part) {
+      if (part.kind == PartKind::mesh) meshes_.at(&part).tune(given(part), rate());
+    });
+    each_part_of(0, [&](const BlockPart& part) {
+      if (part.kind == PartKind::spring || part.kind == PartKind::relaxation) sum = writer_.plus(sum, answer_of(part));
+    });
+    assign(target, or_zero(sum), "g of what joins tool and ground");
+    if (!tables_.has_slips()) return;
+    for (std::size_t i = has_contact() ? 0 : 1; i < blocks_.size(); ++i) tune(i);
+    slips_.tune(given_);
+  }
+
+  // g of a part over a sample.
+  ExpressionId answer_of(const BlockPart& part) {
+    switch (part.kind) {
+      case PartKind::spring: break;
+      case PartKind::damper: return writer_.multiply(given(part.damping), rate());
+      case PartKind::relaxation: return writer_.multiply(stiffness_of(part), given(part.share));
+      case PartKind::mesh: return meshes_.at(&part).stiffness();
+    }
+    return stiffness_of(part);
+  }
+
+  // g and b∞ of a block that slips are solved with; of block 0 the brake has been told already.
+  void tune(std::size_t index) {
+    SpelledBlock& block = blocks_[index];
+    ExpressionId through = nothing;
+    each_part_of(index, [&](const BlockPart& part) {
+      block.stiffness = writer_.plus(block.stiffness, answer_of(part));
+      if (part.kind == PartKind::damper) through = writer_.plus(through, given(part.damping));
+      if (part.kind == PartKind::mesh) through = writer_.plus(through, meshes_.at(&part).feedthrough());
+    });
+    if (block.stiffness != nothing)
+      block.stiffness = local_of(joined(block.name, "answer_alone"), writer_.stiffness(), block.stiffness);
+    if (index == 0 || through == nothing || !head_.slip_rule.takes_part) return;
+    const bool is_plain = facts_of(law_.expressions[through].operation).operands == 0;
+    const bool is_local = law_.expressions[through].operation == Operation::read &&
+                          law_.variables[law_.expressions[through].variable].role == Role::local;
+    block.feedthrough = through;
+    if (is_plain && !is_local) return;
+    const VariableId kept =
+        numbers_.scalar(joined(block.name, "feedthrough"), writer_.damping(), "b∞ of the block", Role::tuned);
+    assign(kept, through, "");
+    block.feedthrough = read(kept);
+  }
+
+  // set(), when its numbers are there: the forces of springs once more, and what is held by them.
+  void write_carrying(VariableId target) {
     if (is_behind_map()) begin_change();
     for (SpringNames& spring : springs_)
       if (spring.changes)
         spring.force = local(joined(spring.name, "force_before"), writer_.force(), force(spring, before(spring)), "");
-    ExpressionId sum = zero();
-    each_part([&](const tunable_part& part) {
-      if (part.kind == tunable_kind::mesh) meshes_.at(&part).tune(given(part), rate());
-      if (part.kind == tunable_kind::spring) sum = writer_.add(sum, stiffness_of(part));
-      if (part.kind == tunable_kind::relaxation)
-        sum = writer_.add(sum, writer_.multiply(stiffness_of(part), given(part.share)));
-    });
-    assign(target, sum, "g of what joins tool and ground");
     carry_forces_over();
+    find_held(target);
   }
 
   // Behind a static curve several changes between two samples are one, from what there was before.
@@ -194,19 +292,17 @@ class SpellingOut {
   }
 
   // The numbers of a mesh's edges.
-  std::vector<ExpressionId> given(const tunable_part& part) const {
+  std::vector<ExpressionId> given(const BlockPart& part) const {
     std::vector<ExpressionId> all;
     for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
-      const tunable_edge& edge = tables_.edges[static_cast<std::size_t>(i)];
+      const MeshEdge& edge = tables_.edges[static_cast<std::size_t>(i)];
       all.push_back(edge.spring != no_index ? springs_[static_cast<std::size_t>(edge.spring)].stiffness
                                             : given_[static_cast<std::size_t>(edge.damping)]);
     }
     return all;
   }
 
-  ExpressionId stiffness_of(const tunable_part& part) {
-    return springs_[static_cast<std::size_t>(part.spring)].stiffness;
-  }
+  ExpressionId stiffness_of(const BlockPart& part) { return springs_[static_cast<std::size_t>(part.spring)].stiffness; }
 
   // Each force stays as it is as far as energy allows that springs and tank already hold.
   void carry_forces_over() {
@@ -215,7 +311,7 @@ class SpellingOut {
     for (SpringNames& spring : springs_)
       if (spring.changes) is_behind_map() ? soften(spring) : pay_for_the_rest(spring);
     is_behind_map() ? find_stiffest_share() : make_up_for_others();
-    each_part([&](const tunable_part& part) {
+    each_part([&](const BlockPart& part) {
       each_spring(part, [&](SpringNames& spring) {
         if (spring.changes) keeps_offset(part) ? move_offset(spring) : move_end(spring);
       });
@@ -259,8 +355,7 @@ class SpellingOut {
         local_of(joined(spring.name, "falls_short"), writer_.force(),
                  writer_.where(next, size_of(writer_.subtract(kept, f), joined(spring.name, "force_short")), zero()));
     const ExpressionId unpaid = local_of(joined(spring.name, "energy_unpaid"), "J", writer_.subtract(cost, tank));
-    const ExpressionId minus_one = numbers_.constant("reversed", "1", "minus one", -1);
-    const ExpressionId signed_most = writer_.where(f, most, writer_.multiply(minus_one, most));
+    const ExpressionId signed_most = writer_.where(f, most, writer_.multiply(minus_one(), most));
     const VariableId result =
         local(joined(spring.name, "force_after"), writer_.force(),
               writer_.where(differs, writer_.where(unpaid, signed_most, f), kept), "F, as far as the tank pays");
@@ -324,20 +419,19 @@ class SpellingOut {
   void make_up_for_others() {
     SpringNames* spring = static_spring();
     if (spring == nullptr || !spring->changes) return;
-    ExpressionId sum = zero();
-    each_part([&](const tunable_part& part) {
+    ExpressionId sum = nothing;
+    each_part_of(0, [&](const BlockPart& part) {
       if (part.spring == no_index) return;
       const SpringNames& other = springs_[static_cast<std::size_t>(part.spring)];
-      if (other.changes) sum = writer_.add(sum, writer_.subtract(read(other.force), read(other.kept)));
+      if (other.changes) sum = writer_.plus(sum, writer_.subtract(read(other.force), read(other.kept)));
     });
     const ExpressionId k = spring->stiffness, kept = read(spring->kept);
-    const ExpressionId missing = local_of("missing_force", writer_.force(), sum);
+    const ExpressionId missing = local_of("missing_force", writer_.force(), or_zero(sum));
     const ExpressionId all = local_of("energy_at_hand", "J", writer_.add(energy(kept, k), read(tank_)));
     const ExpressionId most =
         local_of("most_force", writer_.force(), writer_.square_root(writer_.multiply(writer_.multiply(two(), k), all)));
     const ExpressionId wanted = local_of("wanted_force", writer_.force(), writer_.add(kept, missing));
-    const ExpressionId minus_one = numbers_.constant("reversed", "1", "minus one", -1);
-    const ExpressionId lowest = local_of("least_force", writer_.force(), writer_.multiply(minus_one, most));
+    const ExpressionId lowest = local_of("least_force", writer_.force(), writer_.multiply(minus_one(), most));
     const ExpressionId within =
         local_of("made_up_force", writer_.force(),
                  writer_.where(writer_.subtract(wanted, most), most,
@@ -374,47 +468,49 @@ class SpellingOut {
         local_of(joined(spring.name, "offset_exact"), writer_.length(),
                  writer_.where(spring.stiffness,
                                writer_.subtract(z, writer_.divide(read(spring.kept), spring.stiffness)), zero()));
-    const ExpressionId quarter = numbers_.constant("quarter", "1", "a quarter", 0.25);
+    const ExpressionId quarter = writer_.constant("quarter", "1", "a quarter", Real(0.25));
     const ExpressionId seen = size_of(writer_.subtract(writer_.add(z, writer_.multiply(offset, quarter)), z),
                                       joined(spring.name, "offset_seen"));
     assign(spring.offset, writer_.where(changed, writer_.where(seen, offset, zero()), read(spring.offset)),
            "r = z − F/k");
   }
 
-  void write_meshes(const Statement& at, const CallTunable& call) {
-    ExpressionId stiffness = zero(), through = zero();
-    each_part([&](const tunable_part& part) {
-      if (part.kind != tunable_kind::mesh) return;
+  void write_meshes(const Statement& at, const Call& call) {
+    ExpressionId stiffness = nothing, through = nothing;
+    each_part_of(0, [&](const BlockPart& part) {
+      if (part.kind != PartKind::mesh) return;
       const SpelledMesh& mesh = meshes_.at(&part);
       stiffness =
-          writer_.add(stiffness, writer_.subtract(mesh.stiffness(), writer_.multiply(mesh.feedthrough(), rate())));
-      through = writer_.add(through, mesh.feedthrough());
+          writer_.plus(stiffness, writer_.subtract(mesh.stiffness(), writer_.multiply(mesh.feedthrough(), rate())));
+      through = writer_.plus(through, mesh.feedthrough());
     });
-    const auto answer = [&](TunableResult result) { return result == TunableResult::stiffness ? stiffness : through; };
+    const auto answer = [&](CallResult result) {
+      return or_zero(result == CallResult::stiffness ? stiffness : through);
+    };
     assign(at.target, answer(call.result), "g − b∞/T of meshes");
     for (const auto& [result, variable] : call.found) assign(variable, answer(result), "b∞ of meshes");
   }
 
   void write_viscosity(VariableId target) {
-    ExpressionId sum = zero();
-    each_part([&](const tunable_part& part) {
-      if (part.kind == tunable_kind::mesh) sum = writer_.add(sum, meshes_.at(&part).viscosity(given(part)));
+    ExpressionId sum = nothing;
+    each_part_of(0, [&](const BlockPart& part) {
+      if (part.kind == PartKind::mesh) sum = writer_.plus(sum, meshes_.at(&part).viscosity(given(part)));
     });
-    assign(target, sum, "b of meshes as s → 0");
+    assign(target, or_zero(sum), "b of meshes as s → 0");
   }
 
   // At rest at a position: what joins tool and ground is loaded by it.
   void write_reset(VariableId target, ExpressionId position) {
     if (const SpringNames* spring = static_spring()) assign(spring->elongation, position, "z = u");
-    each_part([&](const tunable_part& part) {
-      if (part.kind == tunable_kind::mesh) stretch(part, meshes_.at(&part).loaded(given(part), position), false);
+    each_part_of(0, [&](const BlockPart& part) {
+      if (part.kind == PartKind::mesh) stretch(part, meshes_.at(&part).loaded(given(part), position), false);
     });
     if (is_behind_map()) keep_sampled();
-    assign(target, held(), "π");
+    assign(target, held(0), "π");
   }
 
   // The force within the motor's limits, and the share of all forces that is kept for it.
-  void write_limit(const Statement& at, const CallTunable& call) {
+  void write_limit(const Statement& at, const Call& call) {
     const ExpressionId wanted = call.given[0];
     ExpressionId now = within(wanted);
     if (head_.motor_step > 0) {
@@ -455,33 +551,37 @@ class SpellingOut {
   }
 
   void write_update(VariableId target, ExpressionId change, ExpressionId position) {
-    each_part([&](const tunable_part& part) { advance(part, change); });
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      const ExpressionId stretched = i == 0 ? change : slips_.elongation(i);
+      each_part_of(i, [&](const BlockPart& part) { advance(part, stretched); });
+    }
     if (sheds()) shed(position);
     else if (const SpringNames* spring = static_spring()) assign(spring->elongation, position, "z = u");
     if (is_behind_map()) let_go();
     bring_offsets_home();
     if (is_behind_map()) keep_sampled();
-    assign(target, held(), "π");
+    slips_.keep();
+    find_held(target);
   }
 
-  void advance(const tunable_part& part, ExpressionId change) {
-    if (part.kind == tunable_kind::damper) return;
-    if (part.kind == tunable_kind::mesh) return stretch(part, meshes_.at(&part).moved(change), true);
+  void advance(const BlockPart& part, ExpressionId change) {
+    if (part.kind == PartKind::damper) return;
+    if (part.kind == PartKind::mesh) return stretch(part, meshes_.at(&part).moved(change), true);
     SpringNames& spring = springs_[static_cast<std::size_t>(part.spring)];
     if (&spring == static_spring()) return;
     const ExpressionId z = read(spring.elongation);
     const ExpressionId way =
-        part.kind == tunable_kind::spring
+        part.kind == PartKind::spring
             ? change
             : writer_.subtract(writer_.multiply(given(part.share), change), writer_.multiply(given(part.loss), z));
     assign(spring.elongation, writer_.flush(writer_.add(z, way)),
-           part.kind == tunable_kind::spring ? "z ← z + δ" : "z ← z + φ δ − α z");
+           part.kind == PartKind::spring ? "z ← z + δ" : "z ← z + φ δ − α z");
   }
 
   // The springs of a mesh by their elongations in a sample, from where they were or from nothing.
-  void stretch(const tunable_part& part, const std::vector<ExpressionId>& elongations, bool goes_on) {
+  void stretch(const BlockPart& part, const std::vector<ExpressionId>& elongations, bool goes_on) {
     for (std::size_t i = 0; i < elongations.size(); ++i) {
-      const tunable_edge& edge = tables_.edges[static_cast<std::size_t>(part.first_edge) + i];
+      const MeshEdge& edge = tables_.edges[static_cast<std::size_t>(part.first_edge) + i];
       if (edge.spring == no_index) continue;
       const SpringNames& spring = springs_[static_cast<std::size_t>(edge.spring)];
       const ExpressionId z = goes_on ? writer_.add(read(spring.elongation), elongations[i]) : elongations[i];
@@ -494,7 +594,7 @@ class SpellingOut {
     const ExpressionId share = read(law_.share);
     const ExpressionId binds = local_of("let_go", "1", writer_.subtract(one(), share));
     ExpressionId at = position;
-    if (has_contact()) {
+    if (comes_back()) {
       assign(dent_, writer_.subtract(read(dent_), read(returned_)), "what has come back is no dent");
       const ExpressionId left = writer_.multiply(share, writer_.subtract(position, read(dent_)));
       assign(dent_, writer_.where(binds, writer_.subtract(position, left), read(dent_)), "d ← s − share (s − d)");
@@ -502,7 +602,7 @@ class SpellingOut {
     } else if (const SpringNames* spring = static_spring()) {
       assign(spring->elongation, at, "z = u");
     }
-    each_part([&](const tunable_part& part) {
+    each_part([&](const BlockPart& part) {
       each_spring(part, [&](SpringNames& spring) { shed(part, spring, share, binds); });
     });
     if (const SpringNames* spring = static_spring(); spring != nullptr && has_contact())
@@ -516,7 +616,7 @@ class SpellingOut {
     if (last_command_ != nothing) assign(last_command_, read(command_), "m₋ = m");
   }
 
-  void shed(const tunable_part& part, SpringNames& spring, ExpressionId share, ExpressionId binds) {
+  void shed(const BlockPart& part, SpringNames& spring, ExpressionId share, ExpressionId binds) {
     const ExpressionId z = read(spring.elongation);
     const auto choose = [&](VariableId changed, ExpressionId value, const char* purpose) {
       assign(changed, writer_.where(binds, value, read(changed)), purpose);
@@ -528,7 +628,7 @@ class SpellingOut {
       choose(spring.offset, writer_.subtract(z, writer_.multiply(share, writer_.subtract(z, read(spring.offset)))),
              "r ← z − share (z − r)");
     } else {
-      choose(spring.elongation, writer_.add(zero(), writer_.multiply(share, z)), "z ← share z");
+      choose(spring.elongation, writer_.multiply(share, z), "z ← share z");
     }
   }
 
@@ -601,29 +701,35 @@ class SpellingOut {
     if (shed_ != nothing) assign(shed_, writer_.where(owed, read(shed_), zero()), "nothing is left of what was shed");
   }
 
-  // π of what joins tool and ground; leaves meshes ready to be moved.
-  ExpressionId held() {
-    ExpressionId sum = zero();
-    each_part([&](const tunable_part& part) {
-      if (part.kind == tunable_kind::damper) return;
-      if (part.kind == tunable_kind::mesh) {
+  void find_held(VariableId of_first) {
+    assign(of_first, held(0), "π");
+    for (std::size_t i = 1; i < blocks_.size(); ++i)
+      if (blocks_[i].held != nothing) assign(blocks_[i].held, held(i), "π of the block");
+  }
+
+  // π of a block; leaves meshes ready to be moved.
+  ExpressionId held(std::size_t block) {
+    ExpressionId sum = nothing;
+    each_part_of(block, [&](const BlockPart& part) {
+      if (part.kind == PartKind::damper) return;
+      if (part.kind == PartKind::mesh) {
         std::vector<ExpressionId> forces;
         for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
           const int spring = tables_.edges[static_cast<std::size_t>(i)].spring;
           forces.push_back(spring == no_index ? nothing : force_of_edge(springs_[static_cast<std::size_t>(spring)]));
         }
-        sum = writer_.add(sum, meshes_.at(&part).held(forces));
+        sum = writer_.plus(sum, meshes_.at(&part).held(forces));
         return;
       }
       const SpringNames& spring = springs_[static_cast<std::size_t>(part.spring)];
       ExpressionId part_force = force(spring, spring.stiffness);
-      if (part.kind == tunable_kind::relaxation)
+      if (part.kind == PartKind::relaxation)
         part_force = writer_.subtract(
             part_force,
             writer_.multiply(spring.stiffness, writer_.multiply(given(part.loss), read(spring.elongation))));
-      sum = writer_.add(sum, part_force);
+      sum = writer_.plus(sum, part_force);
     });
-    return sum;
+    return or_zero(sum);
   }
 
   ExpressionId force_of_edge(const SpringNames& spring) {
@@ -631,11 +737,11 @@ class SpellingOut {
   }
 
   void write_energy(VariableId target, const std::string& purpose) {
-    ExpressionId sum = tank_ == nothing ? zero() : read(tank_);
+    ExpressionId sum = tank_ == nothing ? ExpressionId(nothing) : read(tank_);
     for (const SpringNames& spring : springs_)
-      sum = writer_.add(sum,
-                        writer_.multiply(writer_.multiply(force(spring, spring.stiffness), stretched(spring)), half()));
-    assign(target, sum, purpose);
+      sum = writer_.plus(
+          sum, writer_.multiply(writer_.multiply(force(spring, spring.stiffness), stretched(spring)), half()));
+    assign(target, or_zero(sum), purpose);
   }
 
   ExpressionId stretched(const SpringNames& spring) {
@@ -668,28 +774,31 @@ class SpellingOut {
   }
   ExpressionId zero() { return numbers_.zero(); }
   ExpressionId one() { return numbers_.one(); }
-  ExpressionId two() { return numbers_.constant("two", "1", "two", 2); }
-  ExpressionId half() { return numbers_.constant("half_of", "1", "a half", 0.5); }
+  ExpressionId or_zero(ExpressionId value) { return value == nothing ? zero() : value; }
+  ExpressionId minus_one() { return writer_.constant("minus_one", "1", "minus one", -1); }
+  ExpressionId two() { return writer_.constant("two", "1", "two", 2); }
+  ExpressionId half() { return writer_.constant("half", "1", "a half", Real(0.5)); }
   ExpressionId rate() { return writer_.constant("rate", "Hz", "1/T", head_.rate, ConstantRole::sampling); }
 
   UpdateLaw law_;
   LawWriter writer_;
   const TunableTables& tables_;
-  const tunable_tables<double>& head_;
+  const TunableHead& head_;
   SpelledNumbers numbers_;
   std::vector<ExpressionId> given_;  // the law's numbers
   std::vector<SpringNames> springs_;
-  std::map<const tunable_part*, SpelledMesh> meshes_;
+  std::map<const BlockPart*, SpelledMesh> meshes_;
+  std::vector<SpelledBlock> blocks_;
+  SpelledSlips slips_;
+  VariableId held_force_ = nothing;
   VariableId tank_ = nothing, sampled_tank_ = nothing, stiffest_share_ = nothing, shed_ = nothing,
              last_command_ = nothing, command_ = nothing, dent_ = nothing, returned_ = nothing;
 };
 
 }  // namespace
 
-bool can_be_spelled_out(const UpdateLaw& law) { return !law.tunable || law.tunable->head.slip_count == 0; }
-
-UpdateLaw spelled_out(const UpdateLaw& law, motion port_motion) {
-  return law.tunable ? SpellingOut(law, port_motion).result() : law;
+UpdateLaw spelled_out(UpdateLaw law, motion port_motion) {
+  return law.tunable ? SpellingOut(std::move(law), port_motion).result() : law;
 }
 
 }  // namespace dashpot::compiler

@@ -9,10 +9,7 @@
 
 namespace dashpot::compiler {
 
-// Whether a law's calls can be statements: those for slips are solvers, whose steps follow the values.
-bool can_be_spelled_out(const UpdateLaw& law);
-
-// The same law to the bit. Of a law without calls that law; of those that can be spelled out alone.
-UpdateLaw spelled_out(const UpdateLaw& law, motion port_motion);
+// The same law to the bit. Of a law without calls that law.
+UpdateLaw spelled_out(UpdateLaw law, motion port_motion);
 
 }  // namespace dashpot::compiler

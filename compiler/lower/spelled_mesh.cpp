@@ -4,7 +4,7 @@
 
 namespace dashpot::compiler {
 
-SpelledMesh::SpelledMesh(SpelledNumbers& numbers, const tunable_part& part, const std::vector<tunable_edge>& edges)
+SpelledMesh::SpelledMesh(SpelledNumbers& numbers, const BlockPart& part, const std::vector<MeshEdge>& edges)
     : numbers_(numbers), writer_(numbers.writer()), part_(part), edges_(edges) {
   // A node is pushed by its own springs, and by those of nodes before it that it is joined with.
   const auto count = static_cast<std::size_t>(part.node_count);
@@ -30,7 +30,7 @@ SpelledMesh::SpelledMesh(SpelledNumbers& numbers, const tunable_part& part, cons
                                  : no_variable);
 }
 
-ExpressionId& SpelledMesh::place_of(const tunable_edge& edge, Conductances& all) const {
+ExpressionId& SpelledMesh::place_of(const MeshEdge& edge, Conductances& all) const {
   const auto [low, high] = std::minmax(edge.from, edge.to);
   const auto at = static_cast<std::size_t>(high);
   if (low >= 0) return all.weight[static_cast<std::size_t>(low)][at];
@@ -222,7 +222,7 @@ std::vector<ExpressionId> SpelledMesh::spread(const Shares& shares, const Row& p
 // A spring's force pulls its ends together; what a node is pushed by goes on to those after it.
 ExpressionId SpelledMesh::held(const std::vector<ExpressionId>& forces) {
   Row pushes(push_.size());
-  ExpressionId force = numbers_.zero(), rest = numbers_.zero();
+  ExpressionId force = nothing, rest = nothing;
   for (int i = 0; i < part_.edge_count; ++i) {
     const ExpressionId pull = forces[static_cast<std::size_t>(i)];
     if (pull == nothing) continue;
@@ -234,8 +234,8 @@ ExpressionId SpelledMesh::held(const std::vector<ExpressionId>& forces) {
       ExpressionId& push = pushes[static_cast<std::size_t>(edge(i).to)];
       push = writer_.add(or_zero(push), pull);
     }
-    if (edge(i).from == mesh_port) force = writer_.add(force, pull);
-    else if (edge(i).to == mesh_port) force = writer_.subtract(force, pull);
+    if (edge(i).from == mesh_port) force = writer_.plus(force, pull);
+    else if (edge(i).to == mesh_port) force = writer_.subtract(or_zero(force), pull);
   }
   for (std::size_t i = 0; i < push_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j)
@@ -244,9 +244,9 @@ ExpressionId SpelledMesh::held(const std::vector<ExpressionId>& forces) {
     if (push_[i] == no_variable) continue;
     numbers_.assign(push_[i], or_zero(pushes[i]), "");
     if (shares_.to_port[i] != nothing)
-      rest = writer_.subtract(rest, writer_.multiply(shares_.to_port[i], writer_.read(push_[i])));
+      rest = writer_.plus(rest, writer_.multiply(shares_.to_port[i], writer_.read(push_[i])));
   }
-  return writer_.add(force, rest);
+  return rest == nothing ? or_zero(force) : writer_.subtract(or_zero(force), rest);
 }
 
 }  // namespace dashpot::compiler

@@ -13,7 +13,7 @@ namespace dashpot::compiler {
 class SpelledMesh {
  public:
   // All outlive this.
-  SpelledMesh(SpelledNumbers& numbers, const tunable_part& part, const std::vector<tunable_edge>& edges);
+  SpelledMesh(SpelledNumbers& numbers, const BlockPart& part, const std::vector<MeshEdge>& edges);
 
   // In what follows `values` are stiffness or damping of each edge.
 
@@ -58,16 +58,16 @@ class SpelledMesh {
   std::vector<ExpressionId> spread(const Shares& shares, const Row& pushes, ExpressionId change,
                                    const std::string& prefix);
   void bridge(FirstOrder a, FirstOrder b, FirstOrder p, FirstOrder& sum);
-  ExpressionId& place_of(const tunable_edge& edge, Conductances& all) const;
+  ExpressionId& place_of(const MeshEdge& edge, Conductances& all) const;
   std::string node_name(int node) const { return "node_" + std::to_string(part_.first_node + node + 1); }
   std::string link_name(int from, int to) const { return node_name(from) + "_to_" + node_name(to); }
-  const tunable_edge& edge(int i) const { return edges_[static_cast<std::size_t>(part_.first_edge + i)]; }
+  const MeshEdge& edge(int i) const { return edges_[static_cast<std::size_t>(part_.first_edge + i)]; }
   ExpressionId or_zero(ExpressionId value) { return value == nothing ? numbers_.zero() : value; }
 
   SpelledNumbers& numbers_;
   LawWriter& writer_;
-  const tunable_part& part_;
-  const std::vector<tunable_edge>& edges_;
+  const BlockPart& part_;
+  const std::vector<MeshEdge>& edges_;
   Shares shares_;
   std::vector<VariableId> push_;  // forces on the nodes [N]; nothing where no spring pushes
   ExpressionId stiffness_ = nothing, feedthrough_ = nothing;

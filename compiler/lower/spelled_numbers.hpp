@@ -17,16 +17,19 @@ class SpelledNumbers {
 
   // Statements are from here on those of `program`, which stays where it is.
   void begin(std::vector<Statement>& program);
+  // The same of a program that goes on where the one at hand ends: a name that is taken there is taken here.
+  void go_on(std::vector<Statement>& program) { program_ = &program; }
 
   // A variable of a name of its own.
   VariableId scalar(const std::string& name, const std::string& unit, const std::string& meaning, Role role);
   void assign(VariableId target, ExpressionId value, std::string purpose);
+  Statement& last() { return program_->back(); }
   VariableId local(const std::string& name, const std::string& unit, ExpressionId value, std::string purpose);
   // The value itself where that is a variable or a constant, else a local that has it.
   ExpressionId named(const std::string& name, const std::string& unit, ExpressionId value);
   ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, double value);
-  ExpressionId zero() { return constant("nothing", "1", "zero", 0); }
-  ExpressionId one() { return constant("all", "1", "one", 1); }
+  ExpressionId zero() { return writer_.constant("zero", "1", "nothing", 0, ConstantRole::zero); }
+  ExpressionId one() { return writer_.constant("one", "1", "one", 1); }
 
   LawWriter& writer() { return writer_; }
 

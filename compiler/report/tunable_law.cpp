@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "law/cost.hpp"
+#include "law/walk.hpp"
 #include "report/equations.hpp"
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
@@ -42,7 +43,7 @@ std::string parameters_table(const TunableTables& tables, const Network& network
 
 std::string tunable_law_html(const Compilation& c) {
   const TunableTables& tables = *c.law.tunable;
-  const std::size_t states = tables.springs.size();
+  const std::size_t states = cost_of(c.law, c.law.output).states;
   std::string html =
       "<p>The constants follow the parameters: <code>set()</code> takes the law to others between two samples, "
       "and injects no energy. Everything else on this page holds for their defaults.</p>\n";
@@ -55,8 +56,7 @@ std::string tunable_law_html(const Compilation& c) {
                     " Cost at most: {} operations before the command, {} after it, {} in <code>set()</code>; "
                     "{} state{}.</p>\n",
                     operations_of(cost_of(c.law, c.law.output)), operations_of(cost_of(c.law, c.law.update)),
-                    operations_of(cost_of(c.law, c.law.tune)) + operations_of_energy(tables), states,
-                    states == 1 ? "" : "s");
+                    operations_of(cost_of(c.law, set_program(c.law))), states, states == 1 ? "" : "s");
 }
 
 }  // namespace dashpot::compiler

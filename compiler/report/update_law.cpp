@@ -30,24 +30,11 @@ std::string coupled(const UpdateLaw& law, const Statement& statement, const Coup
                           coupling.slips.size() == 1 ? "," : "s together,", coupling.operations()));
 }
 
-// All that a call assigns, and what it is given.
-std::string called(const UpdateLaw& law, const Statement& statement, const CallTunable& call) {
-  std::string assigned = variable_mathml(law.variables[statement.target]), given;
-  for (const auto& [result, id] : call.found) assigned += "<mo>,</mo>" + variable_mathml(law.variables[id]);
-  for (const ExpressionId id : call.given) given += (given.empty() ? "" : "<mo>,</mo>") + expression_mathml(law, id);
-  const bool is_state = law.variables[statement.target].role == Role::state;
-  return line(assigned, is_state ? "←" : "=",
-              fmt::format("<mtext>{}</mtext><mo stretchy=\"false\">(</mo>{}<mo stretchy=\"false\">)</mo>",
-                          name_of(call.call), given),
-              statement.purpose);
-}
-
 std::string program(const UpdateLaw& law, const std::vector<Statement>& statements) {
   std::string list = "<ul class=\"law\">\n";
   for (const Statement& s : statements) {
     const Variable& target = law.variables[s.target];
     if (const auto* tree = std::get_if<SolveTree>(&s.step)) list += coupled(law, s, law.couplings[tree->coupling]);
-    else if (const auto* call = std::get_if<CallTunable>(&s.step)) list += called(law, s, *call);
     else if (target.role == Role::local || !only_copies(law, s))
       list += line(variable_mathml(target), target.role == Role::local ? "=" : "←", expression_mathml(law, s.value),
                    s.purpose);

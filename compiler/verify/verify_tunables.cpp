@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "certify/estimator_factors.hpp"
-#include "lower/spell_out.hpp"
 #include "verify/realised_network.hpp"
 #include "verify/recompiled.hpp"
 
@@ -19,14 +18,12 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
       tunables_(reference_tunables(compiled.network, facts_)),
       pool_(constants_of_tunables(tunables_, compiled.network, facts_)) {
   const TunableTables& tables = *compiled.law.tunable;
-  const tunable_tables<double>& head = tables.head;
+  const TunableHead& head = tables.head;
   for (const double chosen : {head.contact.encoder_step, head.slip_rule.hysteresis, head.slip_rule.coil_share,
                               head.motor_limit, head.motor_step, head.map.largest_change, head.map.largest_stiffness})
     pool_["tables"].push_back(chosen);
   pool_["numbers"].push_back(tables.numbers[std::size_t(tables.brake.observed)].base);
-  // A header in constant time has constants more.
-  const UpdateLaw law =
-      can_be_spelled_out(compiled.law) ? spelled_out(compiled.law, compiled.network.port_motion) : compiled.law;
+  const UpdateLaw& law = compiled.law;
   for (const Coefficient& constant : law.coefficients) add_pool_of(constant);
   pool_["sample_period"] = {1 / Reference(facts_.rate)};
   pool_["added_damping"] = pool_["steady_damping"] = {compiled.certificate.added_damping};
@@ -35,7 +32,7 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
   pool_["encoder_step"] = {head.contact.encoder_step};
   pool_["none"] = {0};
   for (const Variable& variable : law.variables)
-    if (variable.role == Role::state) pool_[literals_in_code].push_back(variable.rest_value);
+    if (variable.is_kept()) pool_[literals_in_code].push_back(variable.rest_value);
 }
 
 // By its role: what follows from the network is recomputed from it, what is chosen is compared with a re-emission.

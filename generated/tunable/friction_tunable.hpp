@@ -15,16 +15,17 @@
 //   command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 1.1e-14 of the sum of the force's terms
+//   falls; rounding adds at most 5.4e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows damper_3
-// cost of output(): at most 82 additions, multiplications and divisions
-// cost of update(): at most 21 additions and multiplications; 1 numbers are kept between samples
-// cost of set(): at most 24 additions, multiplications and divisions for the constants, 384 for the springs'
-//   energy
+// cost of output(): 4 additions, 2 multiplications, 0 guards against subnormal numbers
+//   and at most 41 additions, multiplications and divisions for the coupled slips
+// cost of update(): 1 additions, 1 multiplications, 1 guards against subnormal numbers; 9 numbers are kept between
+//   samples
+// cost of set(): 7 operations for the constants, 53 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -33,7 +34,9 @@
 #pragma once
 
 #include <dashpot/command.hpp>
-#include <dashpot/tunable_law.hpp>
+#include <dashpot/elementary.hpp>
+#include <dashpot/slip_tree.hpp>
+#include <dashpot/tunable_range.hpp>
 
 namespace dashpot::generated {
 
@@ -67,9 +70,13 @@ class friction_tunable {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_position_change_ = 0;
-    held_force_ = law_.reset(tables, last_position_);
-    resting_brake_ = law_.resting_brake(tables, brake_left_);
-    last_brake_ = steady_brake_ + resting_brake_;
+    spring_2_elongation_ = 0;
+    spring_2_held_ = 0;
+    tank_ = 0;
+    sampled_spring_2_stretched_ = 0;
+    // π
+    held_force_ = zero;
+    last_brake_ = steady_brake_;
     sampled_ = false;
   }
 
@@ -78,23 +85,26 @@ class friction_tunable {
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
-    // σ of all slips
-    const scalar slips_force = law_.slip(tables, position_change);
-    // b of the slips' regime
-    const auto& slip_brake = law_.slip_brake(tables, position, brake_left_);
-    const scalar slips_feedthrough = slip_brake.now;
-    const scalar slips_brake = slip_brake.damping;
+    // f and every block's δ, by curves, signs and numbers
+    const scalar coupled_friction_held[1] = {spring_2_held_};
+    scalar coupled_friction_elongation[1] = {};
+    int coupled_friction_sign[1] = {};
+    dashpot::slip_tree_scratch<scalar, 3, 1, 8> coupled_friction_scratch;
+    const scalar slips_force = dashpot::slip_tree<scalar>(coupled_friction_,
+        coupled_friction_scratch).step(position_change, coupled_friction_held, coupled_friction_elongation,
+        coupled_friction_sign);
+    const scalar spring_2_stretched = coupled_friction_elongation[0];
     // m = f − b u̇
-    const scalar force = step_stiffness_ * position_change + held_force_ +
-        slips_force - slips_feedthrough * position_change + velocity_gain_ * velocity;
+    const scalar force = step_stiffness_ * position_change + held_force_ + slips_force + velocity_gain_ * velocity;
     // b
-    const scalar brake = steady_brake_ + slips_brake;
+    const scalar brake = steady_brake_;
     sampled_ = false;
     if (!dashpot::all_finite(force)) return {last_brake_, 0};
     sampled_ = true;
     last_brake_ = brake;
     sampled_position_ = position;
     sampled_position_change_ = position_change;
+    sampled_spring_2_stretched_ = spring_2_stretched;
     return {brake, force};
   }
 
@@ -102,7 +112,12 @@ class friction_tunable {
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
-    held_force_ = law_.update(tables, sampled_position_change_, sampled_position_);
+    // z ← z + δ
+    spring_2_elongation_ = dashpot::flush_below(threshold, spring_2_elongation_ + sampled_spring_2_stretched_);
+    // π
+    held_force_ = zero;
+    // π of the block
+    spring_2_held_ = presliding_ * spring_2_elongation_;
     // u₋ = u
     last_position_ = sampled_position_;
   }
@@ -122,75 +137,109 @@ class friction_tunable {
     clamped |= dashpot::take_value(tunables[0], wanted.yield, yield_) << 0;
     clamped |= dashpot::take_value(tunables[1], wanted.presliding, presliding_) << 1;
     clamped |= dashpot::take_value(tunables[2], wanted.drag, drag_) << 2;
-    step_stiffness_ = law_.set(tables, {drag_, presliding_, yield_});
-    held_force_ = law_.held(tables);
+    // g of what joins tool and ground
+    step_stiffness_ = zero;
+    friction_yield_ = yield_ - friction_least_yield > 0 ? yield_ : friction_least_yield;
+    spring_2_answer_ = presliding_ - spring_2_least_answer > 0 ? presliding_ : spring_2_least_answer;
+    spring_2_give_ = spring_2_answer_ > 0 ? one / spring_2_answer_ : zero;
     // b follows damper_3
     steady_brake_ = drag_;
     // b∞ − b
     velocity_gain_ = drag_ - steady_brake_;
-    brake_left_ = max_damping - steady_brake_;
+    const scalar spring_2_force_before = spring_2_carried_stiffness_ * spring_2_elongation_;
+    // F, or F √(k′/k) of a softer spring
+    const scalar spring_2_force_kept = spring_2_carried_stiffness_ - presliding_ > 0 ? (presliding_ > 0 ?
+        spring_2_force_before *
+        dashpot::square_root(presliding_ / spring_2_carried_stiffness_) : zero) : spring_2_force_before;
+    const scalar spring_2_energy_before = spring_2_carried_stiffness_ > 0 ? spring_2_force_before *
+        (spring_2_force_before / spring_2_carried_stiffness_) / two : zero;
+    const scalar spring_2_energy_after = presliding_ > 0 ? spring_2_force_before *
+        (spring_2_force_before / presliding_) / two : zero;
+    tank_ = tank_ + (presliding_ - spring_2_carried_stiffness_ > 0 ?
+        spring_2_energy_before - spring_2_energy_after : zero) + (presliding_ > 0 ? zero : spring_2_energy_before);
+    const scalar spring_2_energy_held = presliding_ > 0 ? spring_2_force_kept *
+        (spring_2_force_kept / presliding_) / two : zero;
+    const scalar spring_2_energy_missing = spring_2_energy_after - spring_2_energy_held;
+    const scalar spring_2_force_most = dashpot::square_root(two * presliding_ * (spring_2_energy_held + tank_));
+    const scalar spring_2_force_short = spring_2_force_kept - spring_2_force_before;
+    const scalar spring_2_force_short_size = spring_2_force_short > 0 ? spring_2_force_short :
+        zero - spring_2_force_short;
+    const scalar spring_2_falls_short = presliding_ > 0 ? spring_2_force_short_size : zero;
+    const scalar spring_2_energy_unpaid = spring_2_energy_missing - tank_;
+    // F, as far as the tank pays
+    const scalar spring_2_force_after = spring_2_falls_short > 0 ? (spring_2_energy_unpaid > 0 ?
+        (spring_2_force_before > 0 ? spring_2_force_most : minus_one *
+        spring_2_force_most) : spring_2_force_before) : spring_2_force_kept;
+    tank_ = spring_2_falls_short > 0 ? (spring_2_energy_unpaid > 0 ? zero : tank_ - spring_2_energy_missing) :
+        tank_;
+    const scalar spring_2_force_change = spring_2_force_after - spring_2_force_before;
+    const scalar spring_2_force_change_size = spring_2_force_change > 0 ? spring_2_force_change :
+        zero - spring_2_force_change;
+    const scalar spring_2_stiffness_change = presliding_ - spring_2_carried_stiffness_;
+    const scalar spring_2_stiffness_change_size = spring_2_stiffness_change > 0 ? spring_2_stiffness_change :
+        zero - spring_2_stiffness_change;
+    const scalar spring_2_is_changed = spring_2_force_change_size + spring_2_stiffness_change_size;
+    // z = F/k
+    spring_2_elongation_ = spring_2_is_changed > 0 ? (presliding_ > 0 ? spring_2_force_after / presliding_ : zero) :
+        spring_2_elongation_;
+    spring_2_carried_stiffness_ = presliding_;
+    // π
+    held_force_ = zero;
+    // π of the block
+    spring_2_held_ = presliding_ * spring_2_elongation_;
+    coupled_friction_[1].stiffness = spring_2_answer_;
+    coupled_friction_[1].compliance = spring_2_give_;
+    coupled_friction_[2].yield = friction_yield_;
     return clamped;
   }
 
   // In the springs, and set free by changes of parameters, after the last update() [J].
   scalar stored_energy() const noexcept {
     // V + T: in the springs, and what changes of parameters have set free
-    const scalar stored = law_.stored_energy(tables);
+    const scalar stored = tank_ + presliding_ * spring_2_elongation_ * spring_2_elongation_ * half;
     return stored;
   }
 
  private:
-  static constexpr scalar max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar zero = 0.0;  // nothing [1]
+  static constexpr scalar friction_least_yield = 2.980232238769531e-07;  // Y, no less whatever the parameters are [N]
+  static constexpr scalar spring_2_least_answer = 0.0002980232238769531;  // g, no less whatever the parameters are [N/m]
+  static constexpr scalar one = 1.0;  // one [1]
+  static constexpr scalar two = 2.0;  // two [1]
+  static constexpr scalar minus_one = -1.0;  // minus one [1]
+  static constexpr scalar half = 0.5;  // a half [1]
   static constexpr dashpot::tunable_range<scalar> tunables[3] = {
       {1.5, 0.0, 5.0},  // yield [N]
       {2000.0, 200.0, 5000.0},  // presliding [N/m]
       {12.0, 0.0, 40.0},  // drag [N s/m]
   };
-  static constexpr int springs[1] = {
-      1,  // spring_2
-  };
-  static constexpr dashpot::tunable_part parts[2] = {
-      {dashpot::tunable_kind::damper, -1, 0, -1, -1, 0, 0, 0, 0, false},
-      {dashpot::tunable_kind::spring, 0, -1, -1, -1, 0, 0, 0, 0, true},  // spring_2
-  };
-  static constexpr dashpot::tunable_block<scalar> blocks[2] = {
-      {0, 1, 0.0},
-      {1, 1, 0.0002980232238769531},
-  };
-  static constexpr int cuts[1] = {2};
-  static constexpr dashpot::tunable_yield<scalar> yields[1] = {
-      {0, 1, 2.980232238769531e-07},
-  };
-  static constexpr dashpot::tunable_coupling couplings[1] = {
-      {0, 3, 1, 0, 0},
-  };
-  static constexpr dashpot::slip_node<scalar> nodes[3] = {
-      {dashpot::slip_part::series, 1, 2, 1, 0, 0, 0, 0, 0},
-      {dashpot::slip_part::block, 0, 0, 0, 0, 0, 0, 0, 0},
-      {dashpot::slip_part::slip, 0, 0, 1, 0, 4, 0, 0, 0},
-  };
-  static constexpr dashpot::tunable_tables<scalar> tables = {
-      1000.0, 0.9900498337491681, 6.223015277861142e-61, -1,
-      {false, 0.0, 0.0}, {true, 0.0, 1.0},
-      1, 2, 2, 1, 1, 0,
-      springs, parts, nullptr, blocks, cuts, yields, couplings, nodes, nullptr, nullptr, nullptr,
-      0.0, 0.0};
 
-  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
-  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
-  scalar last_position_ = 0;  // u of the sample before [m]
+  scalar held_force_ = 0;  // π, what springs hold [N]
   scalar yield_ = 1.5;  // parameter [N]
   scalar presliding_ = 2000.0;  // parameter [N/m]
   scalar drag_ = 12.0;  // parameter [N s/m]
-  dashpot::tunable_law<scalar, 1, 1, 2, 3, 1, 8, 0> law_;
-  // what springs answer in a sample [N/m]
-  scalar step_stiffness_ = law_.set(tables, {drag_, presliding_, yield_});
-  scalar steady_brake_ = drag_;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = drag_ - steady_brake_;  // b∞ − b [N·s/m]
-  scalar brake_left_ = max_damping - steady_brake_;  // what the brake has left for slips [N·s/m]
-  scalar held_force_ = law_.reset(tables, last_position_);  // π, what springs hold [N]
-  scalar resting_brake_ = law_.resting_brake(tables, brake_left_);  // b of what is behind slips that hold [N·s/m]
-  scalar last_brake_ = steady_brake_ + resting_brake_;  // b of the sample before [N·s/m]
+  scalar step_stiffness_ = 0;  // what springs answer in a sample [N/m]
+  scalar steady_brake_ = 12.0;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = 0;  // b∞ − b [N·s/m]
+  scalar last_brake_ = 12.0;  // b of the sample before [N·s/m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar spring_2_elongation_ = 0;  // z [m]
+  scalar spring_2_carried_stiffness_ = 2000.0;  // k for which the force is what it is [N/m]
+  scalar spring_2_held_ = 0;  // π, what the block holds [N]
+  scalar tank_ = 0;  // T, set free by changes of parameters [J]
+  scalar friction_yield_ = 1.5;  // Y [N]
+  scalar spring_2_answer_ = 2000.0;  // g of a part whose slips give way [N/m]
+  scalar spring_2_give_ = 0.0005;  // 1/g of it [m/N]
+  scalar sampled_spring_2_stretched_ = 0;  // δ of the block, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
+  // kind, children, slips, place, first corner, stiffness, compliance, yield force
+  dashpot::slip_node<scalar> coupled_friction_[3] = {
+      {dashpot::slip_part::series, 1, 2, 1, 0, 0, 0.0, 0.0, 0.0},
+      {dashpot::slip_part::block, 0, 0, 0, 0, 0, 2000.0, 0.0005, 0.0},
+      {dashpot::slip_part::slip, 0, 0, 1, 0, 4, 0.0, 0.0, 1.5},
+  };
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -20,10 +20,11 @@
 // tunable: skin_friction (0 to 3 N), muscle_friction (0 to 3 N), muscle_stiffness (100 to 4000 N/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows drag
-// cost of output(): at most 11530 additions, multiplications and divisions
-// cost of update(): at most 77 additions and multiplications; 4 numbers are kept between samples
-// cost of set(): at most 101 additions, multiplications and divisions for the constants, 1158 for the springs'
-//   energy
+// cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
+//   and at most 11370 additions, multiplications and divisions for the coupled slips
+// cost of update(): 8 additions, 8 multiplications, 4 guards against subnormal numbers; 20 numbers are kept
+//   between samples
+// cost of set(): 77 operations for the constants, 60 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -32,8 +33,10 @@
 #pragma once
 
 #include <dashpot/command.hpp>
+#include <dashpot/slip_network.hpp>
 #include <dashpot/exponential.hpp>
-#include <dashpot/tunable_law.hpp>
+#include <dashpot/elementary.hpp>
+#include <dashpot/tunable_range.hpp>
 
 namespace dashpot::generated {
 
@@ -67,8 +70,24 @@ class layers_tunable {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_position_change_ = 0;
-    held_force_ = law_.reset(tables, last_position_);
-    resting_brake_ = law_.resting_brake(tables, brake_left_);
+    presliding_elongation_ = 0;
+    skin_elasticity_elongation_ = 0;
+    muscle_rest_elongation_ = 0;
+    muscle_elasticity_muscle_viscosity_elongation_ = 0;
+    presliding_held_ = 0;
+    skin_elasticity_skin_viscosity_held_ = 0;
+    muscle_elasticity_to_muscle_rest_held_ = 0;
+    sampled_skin_grip_sign_ = 0;
+    sampled_muscle_grip_sign_ = 0;
+    sampled_fascia_sign_ = 0;
+    tank_ = 0;
+    sampled_network_skin_grip_end_1_moved_ = 0;
+    sampled_network_skin_grip_end_2_moved_ = 0;
+    sampled_network_skin_grip_end_3_moved_ = 0;
+    // π
+    held_force_ = zero;
+    // b while all slips hold
+    resting_brake_ = zero;
     last_brake_ = steady_brake_ + resting_brake_;
     sampled_ = false;
   }
@@ -78,12 +97,31 @@ class layers_tunable {
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
-    // σ of all slips
-    const scalar slips_force = law_.slip(tables, position_change);
-    // b of the slips' regime
-    const auto& slip_brake = law_.slip_brake(tables, position, brake_left_);
-    const scalar slips_feedthrough = slip_brake.now;
-    const scalar slips_brake = slip_brake.damping;
+    const scalar network_skin_grip_end_1_held = zero - presliding_held_;
+    const scalar network_skin_grip_end_2_held = skin_elasticity_skin_viscosity_held_;
+    const scalar network_skin_grip_end_3_held = muscle_elasticity_to_muscle_rest_held_;
+    const scalar network_skin_grip_tool_held = presliding_held_;
+    // f and where every end goes, by patterns of slips
+    const scalar network_skin_grip_held[4] = {network_skin_grip_end_1_held, network_skin_grip_end_2_held,
+        network_skin_grip_end_3_held, network_skin_grip_tool_held};
+    scalar network_skin_grip_moved[3] = {};
+    int network_skin_grip_sign[3] = {static_cast<int>(sampled_skin_grip_sign_),
+        static_cast<int>(sampled_muscle_grip_sign_), static_cast<int>(sampled_fascia_sign_)};
+    dashpot::slip_network_scratch<scalar, 3> network_skin_grip_scratch;
+    dashpot::slip_network<scalar> network_skin_grip_step(network_skin_grip_links_, 3, {network_skin_grip_between_,
+        network_skin_grip_to_tool_, network_skin_grip_to_ground_, 0.0}, 3, network_skin_grip_scratch.room());
+    const scalar slips_force = network_skin_grip_step.step(position_change, network_skin_grip_held,
+        network_skin_grip_moved, network_skin_grip_sign);
+    const scalar network_skin_grip_end_1_moved = network_skin_grip_moved[0];
+    const scalar network_skin_grip_end_2_moved = network_skin_grip_moved[1];
+    const scalar network_skin_grip_end_3_moved = network_skin_grip_moved[2];
+    const scalar skin_grip_sign = static_cast<scalar>(network_skin_grip_sign[0]);
+    const scalar muscle_grip_sign = static_cast<scalar>(network_skin_grip_sign[1]);
+    const scalar fascia_sign = static_cast<scalar>(network_skin_grip_sign[2]);
+    // b∞/T of the slips' regime
+    const scalar slips_feedthrough = zero * rate;
+    // b of the command's regime
+    const scalar slips_brake = zero;
     // m = f − b u̇
     const scalar force = step_stiffness_ * position_change + held_force_ +
         slips_force - slips_feedthrough * position_change + velocity_gain_ * velocity;
@@ -95,6 +133,12 @@ class layers_tunable {
     last_brake_ = brake;
     sampled_position_ = position;
     sampled_position_change_ = position_change;
+    sampled_skin_grip_sign_ = skin_grip_sign;
+    sampled_muscle_grip_sign_ = muscle_grip_sign;
+    sampled_fascia_sign_ = fascia_sign;
+    sampled_network_skin_grip_end_1_moved_ = network_skin_grip_end_1_moved;
+    sampled_network_skin_grip_end_2_moved_ = network_skin_grip_end_2_moved;
+    sampled_network_skin_grip_end_3_moved_ = network_skin_grip_end_3_moved;
     return {brake, force};
   }
 
@@ -102,7 +146,31 @@ class layers_tunable {
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
-    held_force_ = law_.update(tables, sampled_position_change_, sampled_position_);
+    const scalar presliding_stretched = sampled_position_change_ - sampled_network_skin_grip_end_1_moved_;
+    // z ← z + δ
+    presliding_elongation_ = dashpot::flush_below(threshold, presliding_elongation_ + presliding_stretched);
+    // z ← z + δ
+    skin_elasticity_elongation_ = dashpot::flush_below(threshold, skin_elasticity_elongation_ +
+        sampled_network_skin_grip_end_2_moved_);
+    // z ← z + δ
+    muscle_rest_elongation_ = dashpot::flush_below(threshold, muscle_rest_elongation_ +
+        sampled_network_skin_grip_end_3_moved_);
+    // z ← z + φ δ − α z
+    muscle_elasticity_muscle_viscosity_elongation_ = dashpot::flush_below(threshold,
+        muscle_elasticity_muscle_viscosity_elongation_ +
+        (muscle_elasticity_muscle_viscosity_kept_ *
+        sampled_network_skin_grip_end_3_moved_ - muscle_elasticity_muscle_viscosity_loss_ *
+        muscle_elasticity_muscle_viscosity_elongation_));
+    // π
+    held_force_ = zero;
+    // π of the block
+    presliding_held_ = presliding * presliding_elongation_;
+    // π of the block
+    skin_elasticity_skin_viscosity_held_ = skin_elasticity * skin_elasticity_elongation_;
+    // π of the block
+    muscle_elasticity_to_muscle_rest_held_ = muscle_rest * muscle_rest_elongation_ +
+        (muscle_stiffness_ * muscle_elasticity_muscle_viscosity_elongation_ - muscle_stiffness_ *
+        (muscle_elasticity_muscle_viscosity_loss_ * muscle_elasticity_muscle_viscosity_elongation_));
     // u₋ = u
     last_position_ = sampled_position_;
   }
@@ -130,112 +198,192 @@ class layers_tunable {
     // α = x φ
     muscle_elasticity_muscle_viscosity_loss_ = muscle_elasticity_muscle_viscosity_ratio_ *
         muscle_elasticity_muscle_viscosity_kept_;
-    step_stiffness_ = law_.set(tables, {drag, presliding, skin_elasticity, skin_viscosity, muscle_rest,
-        muscle_stiffness_, muscle_viscosity, skin_friction_, muscle_friction_, fascia,
-        muscle_elasticity_muscle_viscosity_kept_, muscle_elasticity_muscle_viscosity_loss_});
-    held_force_ = law_.held(tables);
+    // g of what joins tool and ground
+    step_stiffness_ = zero;
+    const scalar skin_elasticity_skin_viscosity_answer_alone = skin_elasticity + skin_viscosity * rate;
+    const scalar muscle_elasticity_to_muscle_rest_answer_alone = muscle_rest +
+        muscle_stiffness_ * muscle_elasticity_muscle_viscosity_kept_;
+    skin_grip_yield_ = skin_friction_ - skin_grip_least_yield > 0 ? skin_friction_ : skin_grip_least_yield;
+    muscle_grip_yield_ = muscle_friction_ - muscle_grip_least_yield > 0 ? muscle_friction_ :
+        muscle_grip_least_yield;
+    network_skin_grip_1_to_tool_ = presliding;
+    network_skin_grip_2_to_ground_ = skin_elasticity_skin_viscosity_answer_alone -
+        skin_elasticity_skin_viscosity_least_answer > 0 ? skin_elasticity_skin_viscosity_answer_alone :
+        skin_elasticity_skin_viscosity_least_answer;
+    network_skin_grip_3_to_ground_ = muscle_elasticity_to_muscle_rest_answer_alone -
+        muscle_elasticity_to_muscle_rest_least_answer > 0 ? muscle_elasticity_to_muscle_rest_answer_alone :
+        muscle_elasticity_to_muscle_rest_least_answer;
     // b follows drag
     steady_brake_ = drag;
     // b∞ − b
     velocity_gain_ = drag - steady_brake_;
     brake_left_ = max_damping - steady_brake_;
+    const scalar muscle_elasticity_muscle_viscosity_force_before =
+        muscle_elasticity_muscle_viscosity_carried_stiffness_ * muscle_elasticity_muscle_viscosity_elongation_;
+    // F, or F √(k′/k) of a softer spring
+    const scalar muscle_elasticity_muscle_viscosity_force_kept =
+        muscle_elasticity_muscle_viscosity_carried_stiffness_ - muscle_stiffness_ > 0 ? (muscle_stiffness_ > 0 ?
+        muscle_elasticity_muscle_viscosity_force_before *
+        dashpot::square_root(muscle_stiffness_ / muscle_elasticity_muscle_viscosity_carried_stiffness_) : zero) :
+        muscle_elasticity_muscle_viscosity_force_before;
+    const scalar muscle_elasticity_muscle_viscosity_energy_before =
+        muscle_elasticity_muscle_viscosity_carried_stiffness_ > 0 ?
+        muscle_elasticity_muscle_viscosity_force_before *
+        (muscle_elasticity_muscle_viscosity_force_before / muscle_elasticity_muscle_viscosity_carried_stiffness_) / two : zero;
+    const scalar muscle_elasticity_muscle_viscosity_energy_after = muscle_stiffness_ > 0 ?
+        muscle_elasticity_muscle_viscosity_force_before *
+        (muscle_elasticity_muscle_viscosity_force_before / muscle_stiffness_) / two : zero;
+    tank_ = tank_ + (muscle_stiffness_ - muscle_elasticity_muscle_viscosity_carried_stiffness_ > 0 ?
+        muscle_elasticity_muscle_viscosity_energy_before - muscle_elasticity_muscle_viscosity_energy_after : zero) +
+        (muscle_stiffness_ > 0 ? zero : muscle_elasticity_muscle_viscosity_energy_before);
+    const scalar muscle_elasticity_muscle_viscosity_energy_held = muscle_stiffness_ > 0 ?
+        muscle_elasticity_muscle_viscosity_force_kept *
+        (muscle_elasticity_muscle_viscosity_force_kept / muscle_stiffness_) / two : zero;
+    const scalar muscle_elasticity_muscle_viscosity_energy_missing =
+        muscle_elasticity_muscle_viscosity_energy_after - muscle_elasticity_muscle_viscosity_energy_held;
+    const scalar muscle_elasticity_muscle_viscosity_force_most = dashpot::square_root(two * muscle_stiffness_ *
+        (muscle_elasticity_muscle_viscosity_energy_held + tank_));
+    const scalar muscle_elasticity_muscle_viscosity_force_short = muscle_elasticity_muscle_viscosity_force_kept -
+        muscle_elasticity_muscle_viscosity_force_before;
+    const scalar muscle_elasticity_muscle_viscosity_force_short_size =
+        muscle_elasticity_muscle_viscosity_force_short > 0 ? muscle_elasticity_muscle_viscosity_force_short :
+        zero - muscle_elasticity_muscle_viscosity_force_short;
+    const scalar muscle_elasticity_muscle_viscosity_falls_short = muscle_stiffness_ > 0 ?
+        muscle_elasticity_muscle_viscosity_force_short_size : zero;
+    const scalar muscle_elasticity_muscle_viscosity_energy_unpaid =
+        muscle_elasticity_muscle_viscosity_energy_missing - tank_;
+    // F, as far as the tank pays
+    const scalar muscle_elasticity_muscle_viscosity_force_after =
+        muscle_elasticity_muscle_viscosity_falls_short > 0 ? (muscle_elasticity_muscle_viscosity_energy_unpaid > 0 ?
+        (muscle_elasticity_muscle_viscosity_force_before > 0 ? muscle_elasticity_muscle_viscosity_force_most :
+        minus_one *
+        muscle_elasticity_muscle_viscosity_force_most) : muscle_elasticity_muscle_viscosity_force_before) :
+        muscle_elasticity_muscle_viscosity_force_kept;
+    tank_ = muscle_elasticity_muscle_viscosity_falls_short > 0 ?
+        (muscle_elasticity_muscle_viscosity_energy_unpaid > 0 ? zero :
+        tank_ - muscle_elasticity_muscle_viscosity_energy_missing) : tank_;
+    const scalar muscle_elasticity_muscle_viscosity_force_change = muscle_elasticity_muscle_viscosity_force_after -
+        muscle_elasticity_muscle_viscosity_force_before;
+    const scalar muscle_elasticity_muscle_viscosity_force_change_size =
+        muscle_elasticity_muscle_viscosity_force_change > 0 ? muscle_elasticity_muscle_viscosity_force_change :
+        zero - muscle_elasticity_muscle_viscosity_force_change;
+    const scalar muscle_elasticity_muscle_viscosity_stiffness_change = muscle_stiffness_ -
+        muscle_elasticity_muscle_viscosity_carried_stiffness_;
+    const scalar muscle_elasticity_muscle_viscosity_stiffness_change_size =
+        muscle_elasticity_muscle_viscosity_stiffness_change > 0 ?
+        muscle_elasticity_muscle_viscosity_stiffness_change :
+        zero - muscle_elasticity_muscle_viscosity_stiffness_change;
+    const scalar muscle_elasticity_muscle_viscosity_is_changed =
+        muscle_elasticity_muscle_viscosity_force_change_size +
+        muscle_elasticity_muscle_viscosity_stiffness_change_size;
+    // z = F/k
+    muscle_elasticity_muscle_viscosity_elongation_ = muscle_elasticity_muscle_viscosity_is_changed > 0 ?
+        (muscle_stiffness_ > 0 ? muscle_elasticity_muscle_viscosity_force_after / muscle_stiffness_ : zero) :
+        muscle_elasticity_muscle_viscosity_elongation_;
+    muscle_elasticity_muscle_viscosity_carried_stiffness_ = muscle_stiffness_;
+    // π
+    held_force_ = zero;
+    // π of the block
+    presliding_held_ = presliding * presliding_elongation_;
+    // π of the block
+    skin_elasticity_skin_viscosity_held_ = skin_elasticity * skin_elasticity_elongation_;
+    // π of the block
+    muscle_elasticity_to_muscle_rest_held_ = muscle_rest * muscle_rest_elongation_ +
+        (muscle_stiffness_ * muscle_elasticity_muscle_viscosity_elongation_ - muscle_stiffness_ *
+        (muscle_elasticity_muscle_viscosity_loss_ * muscle_elasticity_muscle_viscosity_elongation_));
+    network_skin_grip_links_[0].lowest = -skin_grip_yield_;
+    network_skin_grip_links_[0].highest = skin_grip_yield_;
+    network_skin_grip_links_[1].lowest = -muscle_grip_yield_;
+    network_skin_grip_links_[1].highest = muscle_grip_yield_;
+    network_skin_grip_to_tool_[0] = network_skin_grip_1_to_tool_;
+    network_skin_grip_to_ground_[1] = network_skin_grip_2_to_ground_;
+    network_skin_grip_to_ground_[2] = network_skin_grip_3_to_ground_;
     return clamped;
   }
 
   // In the springs, and set free by changes of parameters, after the last update() [J].
   scalar stored_energy() const noexcept {
     // V + T: in the springs, and what changes of parameters have set free
-    const scalar stored = law_.stored_energy(tables);
+    const scalar stored = tank_ + presliding * presliding_elongation_ * presliding_elongation_ * half +
+        skin_elasticity * skin_elasticity_elongation_ * skin_elasticity_elongation_ * half +
+        muscle_rest * muscle_rest_elongation_ * muscle_rest_elongation_ * half +
+        muscle_stiffness_ * muscle_elasticity_muscle_viscosity_elongation_ *
+        muscle_elasticity_muscle_viscosity_elongation_ * half;
     return stored;
   }
 
  private:
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar drag = 3.0;  // as in the network [N s/m]
   static constexpr scalar presliding = 4000.0;  // as in the network [N/m]
   static constexpr scalar skin_elasticity = 400.0;  // as in the network [N/m]
   static constexpr scalar skin_viscosity = 3.0;  // as in the network [N s/m]
   static constexpr scalar muscle_rest = 200.0;  // as in the network [N/m]
   static constexpr scalar muscle_viscosity = 20.0;  // as in the network [N s/m]
-  static constexpr scalar fascia = 0.5;  // as in the network [N]
   static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // beyond, nothing is left after a sample [1]
   static constexpr scalar period = 0.001;  // T [s]
   static constexpr scalar max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
+  static constexpr scalar zero = 0.0;  // nothing [1]
+  static constexpr scalar rate = 1000.0;  // 1/T [Hz]
+  static constexpr scalar skin_grip_least_yield = 1.7881393432617188e-07;  // Y, no less whatever the parameters are [N]
+  static constexpr scalar muscle_grip_least_yield = 1.7881393432617188e-07;  // Y, no less whatever the parameters are [N]
+  static constexpr scalar skin_elasticity_skin_viscosity_least_answer = 0.00020265579223632812;  // g, no less whatever the parameters are [N/m]
+  static constexpr scalar muscle_elasticity_to_muscle_rest_least_answer = 0.00022801071038486737;  // g, no less whatever the parameters are [N/m]
+  static constexpr scalar two = 2.0;  // two [1]
+  static constexpr scalar minus_one = -1.0;  // minus one [1]
+  static constexpr scalar half = 0.5;  // a half [1]
   static constexpr dashpot::tunable_range<scalar> tunables[3] = {
       {0.8, 0.0, 3.0},  // skin_friction [N]
       {1.2, 0.0, 3.0},  // muscle_friction [N]
       {900.0, 100.0, 4000.0},  // muscle_stiffness [N/m]
   };
-  static constexpr int springs[4] = {
-      1,  // presliding
-      2,  // skin_elasticity
-      4,  // muscle_rest
-      5,  // muscle_elasticity_muscle_viscosity
-  };
-  static constexpr dashpot::tunable_part parts[6] = {
-      {dashpot::tunable_kind::damper, -1, 0, -1, -1, 0, 0, 0, 0, false},
-      {dashpot::tunable_kind::spring, 0, -1, -1, -1, 0, 0, 0, 0, true},  // presliding
-      {dashpot::tunable_kind::spring, 1, -1, -1, -1, 0, 0, 0, 0, true},  // skin_elasticity
-      {dashpot::tunable_kind::damper, -1, 3, -1, -1, 0, 0, 0, 0, false},
-      {dashpot::tunable_kind::spring, 2, -1, -1, -1, 0, 0, 0, 0, true},  // muscle_rest
-      {dashpot::tunable_kind::relaxation, 3, 6, 10, 11, 0, 0, 0, 0, false},  // muscle_elasticity_muscle_viscosity
-  };
-  static constexpr dashpot::tunable_block<scalar> blocks[4] = {
-      {0, 1, 0.0},
-      {1, 1, 0.0002384185791015625},
-      {2, 2, 0.00020265579223632812},
-      {4, 2, 0.00022801071038486737},
-  };
-  static constexpr int cuts[3] = {7, 8, 9};
-  static constexpr dashpot::tunable_yield<scalar> yields[3] = {
-      {0, 1, 1.7881393432617188e-07},
-      {1, 1, 1.7881393432617188e-07},
-      {2, 1, 2.9802322387695312e-08},
-  };
-  static constexpr dashpot::tunable_graph graphs[1] = {
-      {3, 3, 0, 3, 0, 1},
-  };
-  static constexpr dashpot::tunable_ends links[3] = {
-      {0, 1},
-      {0, 2},
-      {1, 2},
-  };
-  static constexpr dashpot::tunable_ends ties[3] = {
-      {3, 0},
-      {1, 4},
-      {2, 4},
-  };
-  static constexpr dashpot::tunable_tables<scalar> tables = {
-      1000.0, 0.9900498337491681, 6.223015277861142e-61, -1,
-      {false, 0.0, 0.0}, {true, 0.0, 1.0},
-      4, 6, 4, 3, 0, 1,
-      springs, parts, nullptr, blocks, cuts, yields, nullptr, nullptr, graphs, links, ties,
-      0.0, 0.0};
 
-  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
-  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
-  scalar last_position_ = 0;  // u of the sample before [m]
+  scalar held_force_ = 0;  // π, what springs hold [N]
   scalar skin_friction_ = 0.8;  // parameter [N]
   scalar muscle_friction_ = 1.2;  // parameter [N]
   scalar muscle_stiffness_ = 900.0;  // parameter [N/m]
-  dashpot::tunable_law<scalar, 4, 1, 4, 1, 3, 1, 3> law_;
-  // a sample over the relaxation time [1]
-  scalar muscle_elasticity_muscle_viscosity_ratio_ = dashpot::clamp_to(largest_ratio,
-      muscle_stiffness_ * period / muscle_viscosity);
-  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_elasticity_muscle_viscosity_kept_ = dashpot::mean_decay(muscle_elasticity_muscle_viscosity_ratio_);
-  // α, what is lost in a sample [1]
-  scalar muscle_elasticity_muscle_viscosity_loss_ = muscle_elasticity_muscle_viscosity_ratio_ *
-      muscle_elasticity_muscle_viscosity_kept_;
-  // what springs answer in a sample [N/m]
-  scalar step_stiffness_ = law_.set(tables, {drag, presliding, skin_elasticity, skin_viscosity, muscle_rest,
-      muscle_stiffness_, muscle_viscosity, skin_friction_, muscle_friction_, fascia,
-      muscle_elasticity_muscle_viscosity_kept_, muscle_elasticity_muscle_viscosity_loss_});
-  scalar steady_brake_ = drag;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = drag - steady_brake_;  // b∞ − b [N·s/m]
-  scalar brake_left_ = max_damping - steady_brake_;  // what the brake has left for slips [N·s/m]
-  scalar held_force_ = law_.reset(tables, last_position_);  // π, what springs hold [N]
-  scalar resting_brake_ = law_.resting_brake(tables, brake_left_);  // b of what is behind slips that hold [N·s/m]
-  scalar last_brake_ = steady_brake_ + resting_brake_;  // b of the sample before [N·s/m]
+  scalar muscle_elasticity_muscle_viscosity_ratio_ = 0.045;  // a sample over the relaxation time [1]
+  scalar muscle_elasticity_muscle_viscosity_kept_ = 0.9778337370422243;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_elasticity_muscle_viscosity_loss_ = 0.044002518166900095;  // α, what is lost in a sample [1]
+  scalar step_stiffness_ = 0;  // what springs answer in a sample [N/m]
+  scalar steady_brake_ = 3.0;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = 0;  // b∞ − b [N·s/m]
+  scalar brake_left_ = 1.7976931348623157e+308;  // what the brake has left for slips [N·s/m]
+  scalar last_brake_ = 3.0;  // b of the sample before [N·s/m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar resting_brake_ = 0;  // b of what is behind slips that hold [N·s/m]
+  scalar presliding_elongation_ = 0;  // z [m]
+  scalar skin_elasticity_elongation_ = 0;  // z [m]
+  scalar muscle_rest_elongation_ = 0;  // z [m]
+  scalar muscle_elasticity_muscle_viscosity_elongation_ = 0;  // z [m]
+  scalar muscle_elasticity_muscle_viscosity_carried_stiffness_ = 900.0;  // k for which the force is what it is [N/m]
+  scalar presliding_held_ = 0;  // π, what the block holds [N]
+  scalar skin_elasticity_skin_viscosity_held_ = 0;  // π, what the block holds [N]
+  scalar muscle_elasticity_to_muscle_rest_held_ = 0;  // π, what the block holds [N]
+  scalar sampled_skin_grip_sign_ = 0;  // side to which the slip gives way, at this sample [1]
+  scalar sampled_muscle_grip_sign_ = 0;  // side to which the slip gives way, at this sample [1]
+  scalar sampled_fascia_sign_ = 0;  // side to which the slip gives way, at this sample [1]
+  scalar tank_ = 0;  // T, set free by changes of parameters [J]
+  scalar skin_grip_yield_ = 0.8;  // Y [N]
+  scalar muscle_grip_yield_ = 1.2;  // Y [N]
+  scalar network_skin_grip_1_to_tool_ = 4000.0;  // g between two ends [N/m]
+  scalar network_skin_grip_2_to_ground_ = 3400.0;  // g between two ends [N/m]
+  scalar network_skin_grip_3_to_ground_ = 1080.0503633380017;  // g between two ends [N/m]
+  scalar sampled_network_skin_grip_end_1_moved_ = 0;  // displacement of an inner end, at this sample [m]
+  scalar sampled_network_skin_grip_end_2_moved_ = 0;  // displacement of an inner end, at this sample [m]
+  scalar sampled_network_skin_grip_end_3_moved_ = 0;  // displacement of an inner end, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
+  // ends, lowest and highest force of each slip; inner ends come first, then tool and ground
+  dashpot::slip_link<scalar> network_skin_grip_links_[3] = {
+      {0, 1, -0.8, 0.8},
+      {0, 2, -1.2, 1.2},
+      {1, 2, -0.5, 0.5},
+  };
+  // stiffness over one sample between inner ends, to the tool and to the ground [N/m] or [N·m/rad]
+  scalar network_skin_grip_between_[9] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  scalar network_skin_grip_to_tool_[3] = {4000.0, 0.0, 0.0};
+  scalar network_skin_grip_to_ground_[3] = {0.0, 3400.0, 1080.0503633380017};
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -15,16 +15,16 @@
 //   at least 0 N·s/m is there, 1.78601 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 1.3e-14 of the sum of the force's terms
+//   falls; rounding adds at most 6.9e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: K (0 to 400 N/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
-// cost of output(): at most 5 additions, multiplications and divisions
-// cost of update(): at most 111 additions and multiplications; 6 numbers are kept between samples
-// cost of set(): at most 401 additions, multiplications and divisions for the constants, 1674 for the springs'
-//   energy
+// cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
+// cost of update(): 27 additions, 30 multiplications, 6 guards against subnormal numbers; 13 numbers are kept
+//   between samples
+// cost of set(): 355 operations for the constants, 338 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -34,7 +34,8 @@
 
 #include <dashpot/command.hpp>
 #include <dashpot/exponential.hpp>
-#include <dashpot/tunable_law.hpp>
+#include <dashpot/elementary.hpp>
+#include <dashpot/tunable_range.hpp>
 
 namespace dashpot::generated {
 
@@ -66,7 +67,27 @@ class springpot_tunable {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_position_change_ = 0;
-    held_force_ = law_.reset(tables, last_position_);
+    muscle_spring_1_muscle_damper_1_elongation_ = 0;
+    muscle_spring_2_muscle_damper_2_elongation_ = 0;
+    muscle_spring_3_muscle_damper_3_elongation_ = 0;
+    muscle_spring_4_muscle_damper_4_elongation_ = 0;
+    muscle_spring_5_muscle_damper_5_elongation_ = 0;
+    rest_offset_ = 0;
+    tank_ = 0;
+    // z = u
+    rest_elongation_ = last_position_;
+    // π
+    held_force_ = rest * (rest_elongation_ - rest_offset_) +
+        (muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ - muscle_spring_1_ *
+        (muscle_spring_1_muscle_damper_1_loss_ * muscle_spring_1_muscle_damper_1_elongation_)) +
+        (muscle_spring_2_ * muscle_spring_2_muscle_damper_2_elongation_ - muscle_spring_2_ *
+        (muscle_spring_2_muscle_damper_2_loss_ * muscle_spring_2_muscle_damper_2_elongation_)) +
+        (muscle_spring_3_ * muscle_spring_3_muscle_damper_3_elongation_ - muscle_spring_3_ *
+        (muscle_spring_3_muscle_damper_3_loss_ * muscle_spring_3_muscle_damper_3_elongation_)) +
+        (muscle_spring_4_ * muscle_spring_4_muscle_damper_4_elongation_ - muscle_spring_4_ *
+        (muscle_spring_4_muscle_damper_4_loss_ * muscle_spring_4_muscle_damper_4_elongation_)) +
+        (muscle_spring_5_ * muscle_spring_5_muscle_damper_5_elongation_ - muscle_spring_5_ *
+        (muscle_spring_5_muscle_damper_5_loss_ * muscle_spring_5_muscle_damper_5_elongation_));
     last_brake_ = steady_brake_;
     sampled_ = false;
   }
@@ -93,16 +114,119 @@ class springpot_tunable {
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
-    held_force_ = law_.update(tables, sampled_position_change_, sampled_position_);
+    // z ← z + φ δ − α z
+    muscle_spring_1_muscle_damper_1_elongation_ = dashpot::flush_below(threshold,
+        muscle_spring_1_muscle_damper_1_elongation_ +
+        (muscle_spring_1_muscle_damper_1_kept_ * sampled_position_change_ - muscle_spring_1_muscle_damper_1_loss_ *
+        muscle_spring_1_muscle_damper_1_elongation_));
+    // z ← z + φ δ − α z
+    muscle_spring_2_muscle_damper_2_elongation_ = dashpot::flush_below(threshold,
+        muscle_spring_2_muscle_damper_2_elongation_ +
+        (muscle_spring_2_muscle_damper_2_kept_ * sampled_position_change_ - muscle_spring_2_muscle_damper_2_loss_ *
+        muscle_spring_2_muscle_damper_2_elongation_));
+    // z ← z + φ δ − α z
+    muscle_spring_3_muscle_damper_3_elongation_ = dashpot::flush_below(threshold,
+        muscle_spring_3_muscle_damper_3_elongation_ +
+        (muscle_spring_3_muscle_damper_3_kept_ * sampled_position_change_ - muscle_spring_3_muscle_damper_3_loss_ *
+        muscle_spring_3_muscle_damper_3_elongation_));
+    // z ← z + φ δ − α z
+    muscle_spring_4_muscle_damper_4_elongation_ = dashpot::flush_below(threshold,
+        muscle_spring_4_muscle_damper_4_elongation_ +
+        (muscle_spring_4_muscle_damper_4_kept_ * sampled_position_change_ - muscle_spring_4_muscle_damper_4_loss_ *
+        muscle_spring_4_muscle_damper_4_elongation_));
+    // z ← z + φ δ − α z
+    muscle_spring_5_muscle_damper_5_elongation_ = dashpot::flush_below(threshold,
+        muscle_spring_5_muscle_damper_5_elongation_ +
+        (muscle_spring_5_muscle_damper_5_kept_ * sampled_position_change_ - muscle_spring_5_muscle_damper_5_loss_ *
+        muscle_spring_5_muscle_damper_5_elongation_));
+    // z = u
+    rest_elongation_ = sampled_position_;
+    const scalar rest_offset_after = dashpot::flush_below(threshold, retention * rest_offset_);
+    const scalar rest_offset_cost = rest * (rest_offset_ - rest_offset_after) *
+        (rest_elongation_ - rest_offset_after + (rest_elongation_ - rest_offset_)) * half;
+    const scalar rest_offset_unpaid = rest_offset_cost - tank_;
+    // r goes home where the tank pays
+    rest_offset_ = rest_offset_unpaid > 0 ? rest_offset_ : rest_offset_after;
+    tank_ = rest_offset_unpaid > 0 ? tank_ : tank_ - rest_offset_cost;
+    // π
+    held_force_ = rest * (rest_elongation_ - rest_offset_) +
+        (muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ - muscle_spring_1_ *
+        (muscle_spring_1_muscle_damper_1_loss_ * muscle_spring_1_muscle_damper_1_elongation_)) +
+        (muscle_spring_2_ * muscle_spring_2_muscle_damper_2_elongation_ - muscle_spring_2_ *
+        (muscle_spring_2_muscle_damper_2_loss_ * muscle_spring_2_muscle_damper_2_elongation_)) +
+        (muscle_spring_3_ * muscle_spring_3_muscle_damper_3_elongation_ - muscle_spring_3_ *
+        (muscle_spring_3_muscle_damper_3_loss_ * muscle_spring_3_muscle_damper_3_elongation_)) +
+        (muscle_spring_4_ * muscle_spring_4_muscle_damper_4_elongation_ - muscle_spring_4_ *
+        (muscle_spring_4_muscle_damper_4_loss_ * muscle_spring_4_muscle_damper_4_elongation_)) +
+        (muscle_spring_5_ * muscle_spring_5_muscle_damper_5_elongation_ - muscle_spring_5_ *
+        (muscle_spring_5_muscle_damper_5_loss_ * muscle_spring_5_muscle_damper_5_elongation_));
     // u₋ = u
     last_position_ = sampled_position_;
   }
 
   // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = step_stiffness_ * position_change + held_force_ + velocity_gain_ * velocity;
+    // b
+    const scalar brake = steady_brake_;
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {last_brake_, 0};
+    }
+    last_brake_ = brake;
+    // z ← z + φ δ − α z
+    muscle_spring_1_muscle_damper_1_elongation_ = dashpot::flush_below(threshold,
+        muscle_spring_1_muscle_damper_1_elongation_ +
+        (muscle_spring_1_muscle_damper_1_kept_ * position_change - muscle_spring_1_muscle_damper_1_loss_ *
+        muscle_spring_1_muscle_damper_1_elongation_));
+    // z ← z + φ δ − α z
+    muscle_spring_2_muscle_damper_2_elongation_ = dashpot::flush_below(threshold,
+        muscle_spring_2_muscle_damper_2_elongation_ +
+        (muscle_spring_2_muscle_damper_2_kept_ * position_change - muscle_spring_2_muscle_damper_2_loss_ *
+        muscle_spring_2_muscle_damper_2_elongation_));
+    // z ← z + φ δ − α z
+    muscle_spring_3_muscle_damper_3_elongation_ = dashpot::flush_below(threshold,
+        muscle_spring_3_muscle_damper_3_elongation_ +
+        (muscle_spring_3_muscle_damper_3_kept_ * position_change - muscle_spring_3_muscle_damper_3_loss_ *
+        muscle_spring_3_muscle_damper_3_elongation_));
+    // z ← z + φ δ − α z
+    muscle_spring_4_muscle_damper_4_elongation_ = dashpot::flush_below(threshold,
+        muscle_spring_4_muscle_damper_4_elongation_ +
+        (muscle_spring_4_muscle_damper_4_kept_ * position_change - muscle_spring_4_muscle_damper_4_loss_ *
+        muscle_spring_4_muscle_damper_4_elongation_));
+    // z ← z + φ δ − α z
+    muscle_spring_5_muscle_damper_5_elongation_ = dashpot::flush_below(threshold,
+        muscle_spring_5_muscle_damper_5_elongation_ +
+        (muscle_spring_5_muscle_damper_5_kept_ * position_change - muscle_spring_5_muscle_damper_5_loss_ *
+        muscle_spring_5_muscle_damper_5_elongation_));
+    // z = u
+    rest_elongation_ = position;
+    const scalar rest_offset_after = dashpot::flush_below(threshold, retention * rest_offset_);
+    const scalar rest_offset_cost = rest * (rest_offset_ - rest_offset_after) *
+        (rest_elongation_ - rest_offset_after + (rest_elongation_ - rest_offset_)) * half;
+    const scalar rest_offset_unpaid = rest_offset_cost - tank_;
+    // r goes home where the tank pays
+    rest_offset_ = rest_offset_unpaid > 0 ? rest_offset_ : rest_offset_after;
+    tank_ = rest_offset_unpaid > 0 ? tank_ : tank_ - rest_offset_cost;
+    // π
+    held_force_ = rest * (rest_elongation_ - rest_offset_) +
+        (muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ - muscle_spring_1_ *
+        (muscle_spring_1_muscle_damper_1_loss_ * muscle_spring_1_muscle_damper_1_elongation_)) +
+        (muscle_spring_2_ * muscle_spring_2_muscle_damper_2_elongation_ - muscle_spring_2_ *
+        (muscle_spring_2_muscle_damper_2_loss_ * muscle_spring_2_muscle_damper_2_elongation_)) +
+        (muscle_spring_3_ * muscle_spring_3_muscle_damper_3_elongation_ - muscle_spring_3_ *
+        (muscle_spring_3_muscle_damper_3_loss_ * muscle_spring_3_muscle_damper_3_elongation_)) +
+        (muscle_spring_4_ * muscle_spring_4_muscle_damper_4_elongation_ - muscle_spring_4_ *
+        (muscle_spring_4_muscle_damper_4_loss_ * muscle_spring_4_muscle_damper_4_elongation_)) +
+        (muscle_spring_5_ * muscle_spring_5_muscle_damper_5_elongation_ - muscle_spring_5_ *
+        (muscle_spring_5_muscle_damper_5_loss_ * muscle_spring_5_muscle_damper_5_elongation_));
+    // u₋ = u
+    last_position_ = position;
+    sampled_ = false;
+    return {brake, force};
   }
 
   // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its
@@ -161,14 +285,12 @@ class springpot_tunable {
     // α = x φ
     muscle_spring_5_muscle_damper_5_loss_ = muscle_spring_5_muscle_damper_5_ratio_ *
         muscle_spring_5_muscle_damper_5_kept_;
-    step_stiffness_ = law_.set(tables, {rest, muscle_spring_1_, muscle_damper_1_, muscle_spring_2_,
-        muscle_damper_2_, muscle_spring_3_, muscle_damper_3_, muscle_spring_4_, muscle_damper_4_, muscle_spring_5_,
-        muscle_damper_5_, muscle_spring_1_muscle_damper_1_kept_, muscle_spring_1_muscle_damper_1_loss_,
-        muscle_spring_2_muscle_damper_2_kept_, muscle_spring_2_muscle_damper_2_loss_,
-        muscle_spring_3_muscle_damper_3_kept_, muscle_spring_3_muscle_damper_3_loss_,
-        muscle_spring_4_muscle_damper_4_kept_, muscle_spring_4_muscle_damper_4_loss_,
-        muscle_spring_5_muscle_damper_5_kept_, muscle_spring_5_muscle_damper_5_loss_});
-    held_force_ = law_.held(tables);
+    // g of what joins tool and ground
+    step_stiffness_ = rest + muscle_spring_1_ * muscle_spring_1_muscle_damper_1_kept_ +
+        muscle_spring_2_ * muscle_spring_2_muscle_damper_2_kept_ +
+        muscle_spring_3_ * muscle_spring_3_muscle_damper_3_kept_ +
+        muscle_spring_4_ * muscle_spring_4_muscle_damper_4_kept_ +
+        muscle_spring_5_ * muscle_spring_5_muscle_damper_5_kept_;
     muscle_damper_1_to_muscle_damper_5_sum_ = muscle_damper_1_to_muscle_damper_5_share * K_ +
         muscle_damper_1_to_muscle_damper_5_share_2 * K_ + muscle_damper_1_to_muscle_damper_5_share_3 * K_ +
         muscle_damper_1_to_muscle_damper_5_share_4 * K_ + muscle_damper_1_to_muscle_damper_5_share_5 * K_;
@@ -176,17 +298,358 @@ class springpot_tunable {
     steady_brake_ = muscle_damper_1_to_muscle_damper_5_sum_;
     // b∞ − b
     velocity_gain_ = no_damping - steady_brake_;
+    const scalar rest_force_before = rest * (rest_elongation_ - rest_offset_);
+    const scalar muscle_spring_1_muscle_damper_1_force_before = muscle_spring_1_muscle_damper_1_carried_stiffness_ *
+        muscle_spring_1_muscle_damper_1_elongation_;
+    const scalar muscle_spring_2_muscle_damper_2_force_before = muscle_spring_2_muscle_damper_2_carried_stiffness_ *
+        muscle_spring_2_muscle_damper_2_elongation_;
+    const scalar muscle_spring_3_muscle_damper_3_force_before = muscle_spring_3_muscle_damper_3_carried_stiffness_ *
+        muscle_spring_3_muscle_damper_3_elongation_;
+    const scalar muscle_spring_4_muscle_damper_4_force_before = muscle_spring_4_muscle_damper_4_carried_stiffness_ *
+        muscle_spring_4_muscle_damper_4_elongation_;
+    const scalar muscle_spring_5_muscle_damper_5_force_before = muscle_spring_5_muscle_damper_5_carried_stiffness_ *
+        muscle_spring_5_muscle_damper_5_elongation_;
+    // F, or F √(k′/k) of a softer spring
+    const scalar muscle_spring_1_muscle_damper_1_force_kept = muscle_spring_1_muscle_damper_1_carried_stiffness_ -
+        muscle_spring_1_ > 0 ? (muscle_spring_1_ > 0 ? muscle_spring_1_muscle_damper_1_force_before *
+        dashpot::square_root(muscle_spring_1_ / muscle_spring_1_muscle_damper_1_carried_stiffness_) : zero) :
+        muscle_spring_1_muscle_damper_1_force_before;
+    const scalar muscle_spring_1_muscle_damper_1_energy_before =
+        muscle_spring_1_muscle_damper_1_carried_stiffness_ > 0 ? muscle_spring_1_muscle_damper_1_force_before *
+        (muscle_spring_1_muscle_damper_1_force_before / muscle_spring_1_muscle_damper_1_carried_stiffness_) / two :
+        zero;
+    const scalar muscle_spring_1_muscle_damper_1_energy_after = muscle_spring_1_ > 0 ?
+        muscle_spring_1_muscle_damper_1_force_before *
+        (muscle_spring_1_muscle_damper_1_force_before / muscle_spring_1_) / two : zero;
+    tank_ = tank_ + (muscle_spring_1_ - muscle_spring_1_muscle_damper_1_carried_stiffness_ > 0 ?
+        muscle_spring_1_muscle_damper_1_energy_before - muscle_spring_1_muscle_damper_1_energy_after : zero) +
+        (muscle_spring_1_ > 0 ? zero : muscle_spring_1_muscle_damper_1_energy_before);
+    // F, or F √(k′/k) of a softer spring
+    const scalar muscle_spring_2_muscle_damper_2_force_kept = muscle_spring_2_muscle_damper_2_carried_stiffness_ -
+        muscle_spring_2_ > 0 ? (muscle_spring_2_ > 0 ? muscle_spring_2_muscle_damper_2_force_before *
+        dashpot::square_root(muscle_spring_2_ / muscle_spring_2_muscle_damper_2_carried_stiffness_) : zero) :
+        muscle_spring_2_muscle_damper_2_force_before;
+    const scalar muscle_spring_2_muscle_damper_2_energy_before =
+        muscle_spring_2_muscle_damper_2_carried_stiffness_ > 0 ? muscle_spring_2_muscle_damper_2_force_before *
+        (muscle_spring_2_muscle_damper_2_force_before / muscle_spring_2_muscle_damper_2_carried_stiffness_) / two :
+        zero;
+    const scalar muscle_spring_2_muscle_damper_2_energy_after = muscle_spring_2_ > 0 ?
+        muscle_spring_2_muscle_damper_2_force_before *
+        (muscle_spring_2_muscle_damper_2_force_before / muscle_spring_2_) / two : zero;
+    tank_ = tank_ + (muscle_spring_2_ - muscle_spring_2_muscle_damper_2_carried_stiffness_ > 0 ?
+        muscle_spring_2_muscle_damper_2_energy_before - muscle_spring_2_muscle_damper_2_energy_after : zero) +
+        (muscle_spring_2_ > 0 ? zero : muscle_spring_2_muscle_damper_2_energy_before);
+    // F, or F √(k′/k) of a softer spring
+    const scalar muscle_spring_3_muscle_damper_3_force_kept = muscle_spring_3_muscle_damper_3_carried_stiffness_ -
+        muscle_spring_3_ > 0 ? (muscle_spring_3_ > 0 ? muscle_spring_3_muscle_damper_3_force_before *
+        dashpot::square_root(muscle_spring_3_ / muscle_spring_3_muscle_damper_3_carried_stiffness_) : zero) :
+        muscle_spring_3_muscle_damper_3_force_before;
+    const scalar muscle_spring_3_muscle_damper_3_energy_before =
+        muscle_spring_3_muscle_damper_3_carried_stiffness_ > 0 ? muscle_spring_3_muscle_damper_3_force_before *
+        (muscle_spring_3_muscle_damper_3_force_before / muscle_spring_3_muscle_damper_3_carried_stiffness_) / two :
+        zero;
+    const scalar muscle_spring_3_muscle_damper_3_energy_after = muscle_spring_3_ > 0 ?
+        muscle_spring_3_muscle_damper_3_force_before *
+        (muscle_spring_3_muscle_damper_3_force_before / muscle_spring_3_) / two : zero;
+    tank_ = tank_ + (muscle_spring_3_ - muscle_spring_3_muscle_damper_3_carried_stiffness_ > 0 ?
+        muscle_spring_3_muscle_damper_3_energy_before - muscle_spring_3_muscle_damper_3_energy_after : zero) +
+        (muscle_spring_3_ > 0 ? zero : muscle_spring_3_muscle_damper_3_energy_before);
+    // F, or F √(k′/k) of a softer spring
+    const scalar muscle_spring_4_muscle_damper_4_force_kept = muscle_spring_4_muscle_damper_4_carried_stiffness_ -
+        muscle_spring_4_ > 0 ? (muscle_spring_4_ > 0 ? muscle_spring_4_muscle_damper_4_force_before *
+        dashpot::square_root(muscle_spring_4_ / muscle_spring_4_muscle_damper_4_carried_stiffness_) : zero) :
+        muscle_spring_4_muscle_damper_4_force_before;
+    const scalar muscle_spring_4_muscle_damper_4_energy_before =
+        muscle_spring_4_muscle_damper_4_carried_stiffness_ > 0 ? muscle_spring_4_muscle_damper_4_force_before *
+        (muscle_spring_4_muscle_damper_4_force_before / muscle_spring_4_muscle_damper_4_carried_stiffness_) / two :
+        zero;
+    const scalar muscle_spring_4_muscle_damper_4_energy_after = muscle_spring_4_ > 0 ?
+        muscle_spring_4_muscle_damper_4_force_before *
+        (muscle_spring_4_muscle_damper_4_force_before / muscle_spring_4_) / two : zero;
+    tank_ = tank_ + (muscle_spring_4_ - muscle_spring_4_muscle_damper_4_carried_stiffness_ > 0 ?
+        muscle_spring_4_muscle_damper_4_energy_before - muscle_spring_4_muscle_damper_4_energy_after : zero) +
+        (muscle_spring_4_ > 0 ? zero : muscle_spring_4_muscle_damper_4_energy_before);
+    // F, or F √(k′/k) of a softer spring
+    const scalar muscle_spring_5_muscle_damper_5_force_kept = muscle_spring_5_muscle_damper_5_carried_stiffness_ -
+        muscle_spring_5_ > 0 ? (muscle_spring_5_ > 0 ? muscle_spring_5_muscle_damper_5_force_before *
+        dashpot::square_root(muscle_spring_5_ / muscle_spring_5_muscle_damper_5_carried_stiffness_) : zero) :
+        muscle_spring_5_muscle_damper_5_force_before;
+    const scalar muscle_spring_5_muscle_damper_5_energy_before =
+        muscle_spring_5_muscle_damper_5_carried_stiffness_ > 0 ? muscle_spring_5_muscle_damper_5_force_before *
+        (muscle_spring_5_muscle_damper_5_force_before / muscle_spring_5_muscle_damper_5_carried_stiffness_) / two :
+        zero;
+    const scalar muscle_spring_5_muscle_damper_5_energy_after = muscle_spring_5_ > 0 ?
+        muscle_spring_5_muscle_damper_5_force_before *
+        (muscle_spring_5_muscle_damper_5_force_before / muscle_spring_5_) / two : zero;
+    tank_ = tank_ + (muscle_spring_5_ - muscle_spring_5_muscle_damper_5_carried_stiffness_ > 0 ?
+        muscle_spring_5_muscle_damper_5_energy_before - muscle_spring_5_muscle_damper_5_energy_after : zero) +
+        (muscle_spring_5_ > 0 ? zero : muscle_spring_5_muscle_damper_5_energy_before);
+    const scalar muscle_spring_1_muscle_damper_1_energy_held = muscle_spring_1_ > 0 ?
+        muscle_spring_1_muscle_damper_1_force_kept *
+        (muscle_spring_1_muscle_damper_1_force_kept / muscle_spring_1_) / two : zero;
+    const scalar muscle_spring_1_muscle_damper_1_energy_missing = muscle_spring_1_muscle_damper_1_energy_after -
+        muscle_spring_1_muscle_damper_1_energy_held;
+    const scalar muscle_spring_1_muscle_damper_1_force_most = dashpot::square_root(two * muscle_spring_1_ *
+        (muscle_spring_1_muscle_damper_1_energy_held + tank_));
+    const scalar muscle_spring_1_muscle_damper_1_force_short = muscle_spring_1_muscle_damper_1_force_kept -
+        muscle_spring_1_muscle_damper_1_force_before;
+    const scalar muscle_spring_1_muscle_damper_1_force_short_size =
+        muscle_spring_1_muscle_damper_1_force_short > 0 ? muscle_spring_1_muscle_damper_1_force_short :
+        zero - muscle_spring_1_muscle_damper_1_force_short;
+    const scalar muscle_spring_1_muscle_damper_1_falls_short = muscle_spring_1_ > 0 ?
+        muscle_spring_1_muscle_damper_1_force_short_size : zero;
+    const scalar muscle_spring_1_muscle_damper_1_energy_unpaid = muscle_spring_1_muscle_damper_1_energy_missing -
+        tank_;
+    // F, as far as the tank pays
+    const scalar muscle_spring_1_muscle_damper_1_force_after = muscle_spring_1_muscle_damper_1_falls_short > 0 ?
+        (muscle_spring_1_muscle_damper_1_energy_unpaid > 0 ? (muscle_spring_1_muscle_damper_1_force_before > 0 ?
+        muscle_spring_1_muscle_damper_1_force_most : minus_one *
+        muscle_spring_1_muscle_damper_1_force_most) : muscle_spring_1_muscle_damper_1_force_before) :
+        muscle_spring_1_muscle_damper_1_force_kept;
+    tank_ = muscle_spring_1_muscle_damper_1_falls_short > 0 ? (muscle_spring_1_muscle_damper_1_energy_unpaid > 0 ?
+        zero : tank_ - muscle_spring_1_muscle_damper_1_energy_missing) : tank_;
+    const scalar muscle_spring_2_muscle_damper_2_energy_held = muscle_spring_2_ > 0 ?
+        muscle_spring_2_muscle_damper_2_force_kept *
+        (muscle_spring_2_muscle_damper_2_force_kept / muscle_spring_2_) / two : zero;
+    const scalar muscle_spring_2_muscle_damper_2_energy_missing = muscle_spring_2_muscle_damper_2_energy_after -
+        muscle_spring_2_muscle_damper_2_energy_held;
+    const scalar muscle_spring_2_muscle_damper_2_force_most = dashpot::square_root(two * muscle_spring_2_ *
+        (muscle_spring_2_muscle_damper_2_energy_held + tank_));
+    const scalar muscle_spring_2_muscle_damper_2_force_short = muscle_spring_2_muscle_damper_2_force_kept -
+        muscle_spring_2_muscle_damper_2_force_before;
+    const scalar muscle_spring_2_muscle_damper_2_force_short_size =
+        muscle_spring_2_muscle_damper_2_force_short > 0 ? muscle_spring_2_muscle_damper_2_force_short :
+        zero - muscle_spring_2_muscle_damper_2_force_short;
+    const scalar muscle_spring_2_muscle_damper_2_falls_short = muscle_spring_2_ > 0 ?
+        muscle_spring_2_muscle_damper_2_force_short_size : zero;
+    const scalar muscle_spring_2_muscle_damper_2_energy_unpaid = muscle_spring_2_muscle_damper_2_energy_missing -
+        tank_;
+    // F, as far as the tank pays
+    const scalar muscle_spring_2_muscle_damper_2_force_after = muscle_spring_2_muscle_damper_2_falls_short > 0 ?
+        (muscle_spring_2_muscle_damper_2_energy_unpaid > 0 ? (muscle_spring_2_muscle_damper_2_force_before > 0 ?
+        muscle_spring_2_muscle_damper_2_force_most : minus_one *
+        muscle_spring_2_muscle_damper_2_force_most) : muscle_spring_2_muscle_damper_2_force_before) :
+        muscle_spring_2_muscle_damper_2_force_kept;
+    tank_ = muscle_spring_2_muscle_damper_2_falls_short > 0 ? (muscle_spring_2_muscle_damper_2_energy_unpaid > 0 ?
+        zero : tank_ - muscle_spring_2_muscle_damper_2_energy_missing) : tank_;
+    const scalar muscle_spring_3_muscle_damper_3_energy_held = muscle_spring_3_ > 0 ?
+        muscle_spring_3_muscle_damper_3_force_kept *
+        (muscle_spring_3_muscle_damper_3_force_kept / muscle_spring_3_) / two : zero;
+    const scalar muscle_spring_3_muscle_damper_3_energy_missing = muscle_spring_3_muscle_damper_3_energy_after -
+        muscle_spring_3_muscle_damper_3_energy_held;
+    const scalar muscle_spring_3_muscle_damper_3_force_most = dashpot::square_root(two * muscle_spring_3_ *
+        (muscle_spring_3_muscle_damper_3_energy_held + tank_));
+    const scalar muscle_spring_3_muscle_damper_3_force_short = muscle_spring_3_muscle_damper_3_force_kept -
+        muscle_spring_3_muscle_damper_3_force_before;
+    const scalar muscle_spring_3_muscle_damper_3_force_short_size =
+        muscle_spring_3_muscle_damper_3_force_short > 0 ? muscle_spring_3_muscle_damper_3_force_short :
+        zero - muscle_spring_3_muscle_damper_3_force_short;
+    const scalar muscle_spring_3_muscle_damper_3_falls_short = muscle_spring_3_ > 0 ?
+        muscle_spring_3_muscle_damper_3_force_short_size : zero;
+    const scalar muscle_spring_3_muscle_damper_3_energy_unpaid = muscle_spring_3_muscle_damper_3_energy_missing -
+        tank_;
+    // F, as far as the tank pays
+    const scalar muscle_spring_3_muscle_damper_3_force_after = muscle_spring_3_muscle_damper_3_falls_short > 0 ?
+        (muscle_spring_3_muscle_damper_3_energy_unpaid > 0 ? (muscle_spring_3_muscle_damper_3_force_before > 0 ?
+        muscle_spring_3_muscle_damper_3_force_most : minus_one *
+        muscle_spring_3_muscle_damper_3_force_most) : muscle_spring_3_muscle_damper_3_force_before) :
+        muscle_spring_3_muscle_damper_3_force_kept;
+    tank_ = muscle_spring_3_muscle_damper_3_falls_short > 0 ? (muscle_spring_3_muscle_damper_3_energy_unpaid > 0 ?
+        zero : tank_ - muscle_spring_3_muscle_damper_3_energy_missing) : tank_;
+    const scalar muscle_spring_4_muscle_damper_4_energy_held = muscle_spring_4_ > 0 ?
+        muscle_spring_4_muscle_damper_4_force_kept *
+        (muscle_spring_4_muscle_damper_4_force_kept / muscle_spring_4_) / two : zero;
+    const scalar muscle_spring_4_muscle_damper_4_energy_missing = muscle_spring_4_muscle_damper_4_energy_after -
+        muscle_spring_4_muscle_damper_4_energy_held;
+    const scalar muscle_spring_4_muscle_damper_4_force_most = dashpot::square_root(two * muscle_spring_4_ *
+        (muscle_spring_4_muscle_damper_4_energy_held + tank_));
+    const scalar muscle_spring_4_muscle_damper_4_force_short = muscle_spring_4_muscle_damper_4_force_kept -
+        muscle_spring_4_muscle_damper_4_force_before;
+    const scalar muscle_spring_4_muscle_damper_4_force_short_size =
+        muscle_spring_4_muscle_damper_4_force_short > 0 ? muscle_spring_4_muscle_damper_4_force_short :
+        zero - muscle_spring_4_muscle_damper_4_force_short;
+    const scalar muscle_spring_4_muscle_damper_4_falls_short = muscle_spring_4_ > 0 ?
+        muscle_spring_4_muscle_damper_4_force_short_size : zero;
+    const scalar muscle_spring_4_muscle_damper_4_energy_unpaid = muscle_spring_4_muscle_damper_4_energy_missing -
+        tank_;
+    // F, as far as the tank pays
+    const scalar muscle_spring_4_muscle_damper_4_force_after = muscle_spring_4_muscle_damper_4_falls_short > 0 ?
+        (muscle_spring_4_muscle_damper_4_energy_unpaid > 0 ? (muscle_spring_4_muscle_damper_4_force_before > 0 ?
+        muscle_spring_4_muscle_damper_4_force_most : minus_one *
+        muscle_spring_4_muscle_damper_4_force_most) : muscle_spring_4_muscle_damper_4_force_before) :
+        muscle_spring_4_muscle_damper_4_force_kept;
+    tank_ = muscle_spring_4_muscle_damper_4_falls_short > 0 ? (muscle_spring_4_muscle_damper_4_energy_unpaid > 0 ?
+        zero : tank_ - muscle_spring_4_muscle_damper_4_energy_missing) : tank_;
+    const scalar muscle_spring_5_muscle_damper_5_energy_held = muscle_spring_5_ > 0 ?
+        muscle_spring_5_muscle_damper_5_force_kept *
+        (muscle_spring_5_muscle_damper_5_force_kept / muscle_spring_5_) / two : zero;
+    const scalar muscle_spring_5_muscle_damper_5_energy_missing = muscle_spring_5_muscle_damper_5_energy_after -
+        muscle_spring_5_muscle_damper_5_energy_held;
+    const scalar muscle_spring_5_muscle_damper_5_force_most = dashpot::square_root(two * muscle_spring_5_ *
+        (muscle_spring_5_muscle_damper_5_energy_held + tank_));
+    const scalar muscle_spring_5_muscle_damper_5_force_short = muscle_spring_5_muscle_damper_5_force_kept -
+        muscle_spring_5_muscle_damper_5_force_before;
+    const scalar muscle_spring_5_muscle_damper_5_force_short_size =
+        muscle_spring_5_muscle_damper_5_force_short > 0 ? muscle_spring_5_muscle_damper_5_force_short :
+        zero - muscle_spring_5_muscle_damper_5_force_short;
+    const scalar muscle_spring_5_muscle_damper_5_falls_short = muscle_spring_5_ > 0 ?
+        muscle_spring_5_muscle_damper_5_force_short_size : zero;
+    const scalar muscle_spring_5_muscle_damper_5_energy_unpaid = muscle_spring_5_muscle_damper_5_energy_missing -
+        tank_;
+    // F, as far as the tank pays
+    const scalar muscle_spring_5_muscle_damper_5_force_after = muscle_spring_5_muscle_damper_5_falls_short > 0 ?
+        (muscle_spring_5_muscle_damper_5_energy_unpaid > 0 ? (muscle_spring_5_muscle_damper_5_force_before > 0 ?
+        muscle_spring_5_muscle_damper_5_force_most : minus_one *
+        muscle_spring_5_muscle_damper_5_force_most) : muscle_spring_5_muscle_damper_5_force_before) :
+        muscle_spring_5_muscle_damper_5_force_kept;
+    tank_ = muscle_spring_5_muscle_damper_5_falls_short > 0 ? (muscle_spring_5_muscle_damper_5_energy_unpaid > 0 ?
+        zero : tank_ - muscle_spring_5_muscle_damper_5_energy_missing) : tank_;
+    const scalar missing_force = rest_force_before - rest_force_before +
+        (muscle_spring_1_muscle_damper_1_force_before - muscle_spring_1_muscle_damper_1_force_after) +
+        (muscle_spring_2_muscle_damper_2_force_before - muscle_spring_2_muscle_damper_2_force_after) +
+        (muscle_spring_3_muscle_damper_3_force_before - muscle_spring_3_muscle_damper_3_force_after) +
+        (muscle_spring_4_muscle_damper_4_force_before - muscle_spring_4_muscle_damper_4_force_after) +
+        (muscle_spring_5_muscle_damper_5_force_before - muscle_spring_5_muscle_damper_5_force_after);
+    const scalar energy_at_hand = (rest > 0 ? rest_force_before * (rest_force_before / rest) / two : zero) + tank_;
+    const scalar most_force = dashpot::square_root(two * rest * energy_at_hand);
+    const scalar wanted_force = rest_force_before + missing_force;
+    const scalar least_force = minus_one * most_force;
+    const scalar made_up_force = wanted_force - most_force > 0 ? most_force : (least_force - wanted_force > 0 ?
+        least_force : wanted_force);
+    const scalar missing_size = missing_force > 0 ? missing_force : zero - missing_force;
+    const scalar is_missing = rest > 0 ? missing_size : zero;
+    const scalar energy_left = energy_at_hand - (rest > 0 ? made_up_force * (made_up_force / rest) / two : zero);
+    // F of the static spring
+    const scalar rest_force_made_up = is_missing > 0 ? made_up_force : rest_force_before;
+    tank_ = is_missing > 0 ? (energy_left > 0 ? energy_left : zero) : tank_;
+    const scalar rest_force_change = rest_force_made_up - rest_force_before;
+    const scalar rest_force_change_size = rest_force_change > 0 ? rest_force_change : zero - rest_force_change;
+    const scalar rest_offset_exact = rest > 0 ? rest_elongation_ - rest_force_made_up / rest : zero;
+    const scalar rest_offset_seen = rest_elongation_ + rest_offset_exact * quarter - rest_elongation_;
+    const scalar rest_offset_seen_size = rest_offset_seen > 0 ? rest_offset_seen : zero - rest_offset_seen;
+    // r = z − F/k
+    rest_offset_ = rest_force_change_size > 0 ? (rest_offset_seen_size > 0 ? rest_offset_exact : zero) :
+        rest_offset_;
+    const scalar muscle_spring_1_muscle_damper_1_force_change = muscle_spring_1_muscle_damper_1_force_after -
+        muscle_spring_1_muscle_damper_1_force_before;
+    const scalar muscle_spring_1_muscle_damper_1_force_change_size =
+        muscle_spring_1_muscle_damper_1_force_change > 0 ? muscle_spring_1_muscle_damper_1_force_change :
+        zero - muscle_spring_1_muscle_damper_1_force_change;
+    const scalar muscle_spring_1_muscle_damper_1_stiffness_change = muscle_spring_1_ -
+        muscle_spring_1_muscle_damper_1_carried_stiffness_;
+    const scalar muscle_spring_1_muscle_damper_1_stiffness_change_size =
+        muscle_spring_1_muscle_damper_1_stiffness_change > 0 ? muscle_spring_1_muscle_damper_1_stiffness_change :
+        zero - muscle_spring_1_muscle_damper_1_stiffness_change;
+    const scalar muscle_spring_1_muscle_damper_1_is_changed = muscle_spring_1_muscle_damper_1_force_change_size +
+        muscle_spring_1_muscle_damper_1_stiffness_change_size;
+    // z = F/k
+    muscle_spring_1_muscle_damper_1_elongation_ = muscle_spring_1_muscle_damper_1_is_changed > 0 ?
+        (muscle_spring_1_ > 0 ? muscle_spring_1_muscle_damper_1_force_after / muscle_spring_1_ : zero) :
+        muscle_spring_1_muscle_damper_1_elongation_;
+    const scalar muscle_spring_2_muscle_damper_2_force_change = muscle_spring_2_muscle_damper_2_force_after -
+        muscle_spring_2_muscle_damper_2_force_before;
+    const scalar muscle_spring_2_muscle_damper_2_force_change_size =
+        muscle_spring_2_muscle_damper_2_force_change > 0 ? muscle_spring_2_muscle_damper_2_force_change :
+        zero - muscle_spring_2_muscle_damper_2_force_change;
+    const scalar muscle_spring_2_muscle_damper_2_stiffness_change = muscle_spring_2_ -
+        muscle_spring_2_muscle_damper_2_carried_stiffness_;
+    const scalar muscle_spring_2_muscle_damper_2_stiffness_change_size =
+        muscle_spring_2_muscle_damper_2_stiffness_change > 0 ? muscle_spring_2_muscle_damper_2_stiffness_change :
+        zero - muscle_spring_2_muscle_damper_2_stiffness_change;
+    const scalar muscle_spring_2_muscle_damper_2_is_changed = muscle_spring_2_muscle_damper_2_force_change_size +
+        muscle_spring_2_muscle_damper_2_stiffness_change_size;
+    // z = F/k
+    muscle_spring_2_muscle_damper_2_elongation_ = muscle_spring_2_muscle_damper_2_is_changed > 0 ?
+        (muscle_spring_2_ > 0 ? muscle_spring_2_muscle_damper_2_force_after / muscle_spring_2_ : zero) :
+        muscle_spring_2_muscle_damper_2_elongation_;
+    const scalar muscle_spring_3_muscle_damper_3_force_change = muscle_spring_3_muscle_damper_3_force_after -
+        muscle_spring_3_muscle_damper_3_force_before;
+    const scalar muscle_spring_3_muscle_damper_3_force_change_size =
+        muscle_spring_3_muscle_damper_3_force_change > 0 ? muscle_spring_3_muscle_damper_3_force_change :
+        zero - muscle_spring_3_muscle_damper_3_force_change;
+    const scalar muscle_spring_3_muscle_damper_3_stiffness_change = muscle_spring_3_ -
+        muscle_spring_3_muscle_damper_3_carried_stiffness_;
+    const scalar muscle_spring_3_muscle_damper_3_stiffness_change_size =
+        muscle_spring_3_muscle_damper_3_stiffness_change > 0 ? muscle_spring_3_muscle_damper_3_stiffness_change :
+        zero - muscle_spring_3_muscle_damper_3_stiffness_change;
+    const scalar muscle_spring_3_muscle_damper_3_is_changed = muscle_spring_3_muscle_damper_3_force_change_size +
+        muscle_spring_3_muscle_damper_3_stiffness_change_size;
+    // z = F/k
+    muscle_spring_3_muscle_damper_3_elongation_ = muscle_spring_3_muscle_damper_3_is_changed > 0 ?
+        (muscle_spring_3_ > 0 ? muscle_spring_3_muscle_damper_3_force_after / muscle_spring_3_ : zero) :
+        muscle_spring_3_muscle_damper_3_elongation_;
+    const scalar muscle_spring_4_muscle_damper_4_force_change = muscle_spring_4_muscle_damper_4_force_after -
+        muscle_spring_4_muscle_damper_4_force_before;
+    const scalar muscle_spring_4_muscle_damper_4_force_change_size =
+        muscle_spring_4_muscle_damper_4_force_change > 0 ? muscle_spring_4_muscle_damper_4_force_change :
+        zero - muscle_spring_4_muscle_damper_4_force_change;
+    const scalar muscle_spring_4_muscle_damper_4_stiffness_change = muscle_spring_4_ -
+        muscle_spring_4_muscle_damper_4_carried_stiffness_;
+    const scalar muscle_spring_4_muscle_damper_4_stiffness_change_size =
+        muscle_spring_4_muscle_damper_4_stiffness_change > 0 ? muscle_spring_4_muscle_damper_4_stiffness_change :
+        zero - muscle_spring_4_muscle_damper_4_stiffness_change;
+    const scalar muscle_spring_4_muscle_damper_4_is_changed = muscle_spring_4_muscle_damper_4_force_change_size +
+        muscle_spring_4_muscle_damper_4_stiffness_change_size;
+    // z = F/k
+    muscle_spring_4_muscle_damper_4_elongation_ = muscle_spring_4_muscle_damper_4_is_changed > 0 ?
+        (muscle_spring_4_ > 0 ? muscle_spring_4_muscle_damper_4_force_after / muscle_spring_4_ : zero) :
+        muscle_spring_4_muscle_damper_4_elongation_;
+    const scalar muscle_spring_5_muscle_damper_5_force_change = muscle_spring_5_muscle_damper_5_force_after -
+        muscle_spring_5_muscle_damper_5_force_before;
+    const scalar muscle_spring_5_muscle_damper_5_force_change_size =
+        muscle_spring_5_muscle_damper_5_force_change > 0 ? muscle_spring_5_muscle_damper_5_force_change :
+        zero - muscle_spring_5_muscle_damper_5_force_change;
+    const scalar muscle_spring_5_muscle_damper_5_stiffness_change = muscle_spring_5_ -
+        muscle_spring_5_muscle_damper_5_carried_stiffness_;
+    const scalar muscle_spring_5_muscle_damper_5_stiffness_change_size =
+        muscle_spring_5_muscle_damper_5_stiffness_change > 0 ? muscle_spring_5_muscle_damper_5_stiffness_change :
+        zero - muscle_spring_5_muscle_damper_5_stiffness_change;
+    const scalar muscle_spring_5_muscle_damper_5_is_changed = muscle_spring_5_muscle_damper_5_force_change_size +
+        muscle_spring_5_muscle_damper_5_stiffness_change_size;
+    // z = F/k
+    muscle_spring_5_muscle_damper_5_elongation_ = muscle_spring_5_muscle_damper_5_is_changed > 0 ?
+        (muscle_spring_5_ > 0 ? muscle_spring_5_muscle_damper_5_force_after / muscle_spring_5_ : zero) :
+        muscle_spring_5_muscle_damper_5_elongation_;
+    muscle_spring_1_muscle_damper_1_carried_stiffness_ = muscle_spring_1_;
+    muscle_spring_2_muscle_damper_2_carried_stiffness_ = muscle_spring_2_;
+    muscle_spring_3_muscle_damper_3_carried_stiffness_ = muscle_spring_3_;
+    muscle_spring_4_muscle_damper_4_carried_stiffness_ = muscle_spring_4_;
+    muscle_spring_5_muscle_damper_5_carried_stiffness_ = muscle_spring_5_;
+    // π
+    held_force_ = rest * (rest_elongation_ - rest_offset_) +
+        (muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ - muscle_spring_1_ *
+        (muscle_spring_1_muscle_damper_1_loss_ * muscle_spring_1_muscle_damper_1_elongation_)) +
+        (muscle_spring_2_ * muscle_spring_2_muscle_damper_2_elongation_ - muscle_spring_2_ *
+        (muscle_spring_2_muscle_damper_2_loss_ * muscle_spring_2_muscle_damper_2_elongation_)) +
+        (muscle_spring_3_ * muscle_spring_3_muscle_damper_3_elongation_ - muscle_spring_3_ *
+        (muscle_spring_3_muscle_damper_3_loss_ * muscle_spring_3_muscle_damper_3_elongation_)) +
+        (muscle_spring_4_ * muscle_spring_4_muscle_damper_4_elongation_ - muscle_spring_4_ *
+        (muscle_spring_4_muscle_damper_4_loss_ * muscle_spring_4_muscle_damper_4_elongation_)) +
+        (muscle_spring_5_ * muscle_spring_5_muscle_damper_5_elongation_ - muscle_spring_5_ *
+        (muscle_spring_5_muscle_damper_5_loss_ * muscle_spring_5_muscle_damper_5_elongation_));
     return clamped;
   }
 
   // In the springs, and set free by changes of parameters, after the last update() [J].
   scalar stored_energy() const noexcept {
     // V + T: in the springs, and what changes of parameters have set free
-    const scalar stored = law_.stored_energy(tables);
+    const scalar stored = tank_ +
+        rest * (rest_elongation_ - rest_offset_) * (rest_elongation_ - rest_offset_) * half +
+        muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ *
+        muscle_spring_1_muscle_damper_1_elongation_ * half +
+        muscle_spring_2_ * muscle_spring_2_muscle_damper_2_elongation_ *
+        muscle_spring_2_muscle_damper_2_elongation_ * half +
+        muscle_spring_3_ * muscle_spring_3_muscle_damper_3_elongation_ *
+        muscle_spring_3_muscle_damper_3_elongation_ * half +
+        muscle_spring_4_ * muscle_spring_4_muscle_damper_4_elongation_ *
+        muscle_spring_4_muscle_damper_4_elongation_ * half +
+        muscle_spring_5_ * muscle_spring_5_muscle_damper_5_elongation_ *
+        muscle_spring_5_muscle_damper_5_elongation_ * half;
     return stored;
   }
 
  private:
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar rest = 40.0;  // as in the network [N/m]
   static constexpr scalar muscle_spring_1_share = 0.5529489387983896;  // of K [1]
   static constexpr scalar muscle_damper_1_share = 12.628169563370793;  // of K [1]
@@ -207,106 +670,63 @@ class springpot_tunable {
   static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_3 = 0.1733444489849207;  // of K [1]
   static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_4 = 0.043776778038339514;  // of K [1]
   static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_5 = 0.014790775209721498;  // of K [1]
+  static constexpr scalar two = 2.0;  // two [1]
+  static constexpr scalar minus_one = -1.0;  // minus one [1]
+  static constexpr scalar quarter = 0.25;  // a quarter [1]
+  static constexpr scalar retention = 0.9900498337491681;  // what an offset keeps in a sample [1]
+  static constexpr scalar half = 0.5;  // a half [1]
   static constexpr dashpot::tunable_range<scalar> tunables[1] = {
       {120.0, 0.0, 400.0},  // K [N/m]
   };
-  static constexpr int springs[6] = {
-      0,  // rest
-      1,  // muscle_spring_1_muscle_damper_1
-      3,  // muscle_spring_2_muscle_damper_2
-      5,  // muscle_spring_3_muscle_damper_3
-      7,  // muscle_spring_4_muscle_damper_4
-      9,  // muscle_spring_5_muscle_damper_5
-  };
-  static constexpr dashpot::tunable_part parts[6] = {
-      {dashpot::tunable_kind::spring, 0, -1, -1, -1, 0, 0, 0, 0, false},  // rest
-      {dashpot::tunable_kind::relaxation, 1, 2, 11, 12, 0, 0, 0, 0, false},  // muscle_spring_1_muscle_damper_1
-      {dashpot::tunable_kind::relaxation, 2, 4, 13, 14, 0, 0, 0, 0, false},  // muscle_spring_2_muscle_damper_2
-      {dashpot::tunable_kind::relaxation, 3, 6, 15, 16, 0, 0, 0, 0, false},  // muscle_spring_3_muscle_damper_3
-      {dashpot::tunable_kind::relaxation, 4, 8, 17, 18, 0, 0, 0, 0, false},  // muscle_spring_4_muscle_damper_4
-      {dashpot::tunable_kind::relaxation, 5, 10, 19, 20, 0, 0, 0, 0, false},  // muscle_spring_5_muscle_damper_5
-  };
-  static constexpr dashpot::tunable_block<scalar> blocks[1] = {
-      {0, 6, 0.0},
-  };
-  static constexpr dashpot::tunable_tables<scalar> tables = {
-      1000.0, 0.9900498337491681, 6.223015277861142e-61, 0,
-      {false, 0.0, 0.0}, {false, 0.0, 1.0},
-      6, 6, 1, 0, 0, 0,
-      springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-      0.0, 0.0};
 
+  scalar held_force_ = 0;  // π, what springs hold [N]
+  scalar K_ = 120.0;  // parameter [N/m]
+  scalar muscle_spring_1_ = 66.35387265580675;  // by its share [N/m]
+  scalar muscle_damper_1_ = 1515.3803476044952;  // by its share [N s/m]
+  scalar muscle_spring_2_ = 53.32263525751097;  // by its share [N/m]
+  scalar muscle_damper_2_ = 82.36777398529314;  // by its share [N s/m]
+  scalar muscle_spring_3_ = 96.17323789760766;  // by its share [N/m]
+  scalar muscle_damper_3_ = 20.801333878190487;  // by its share [N s/m]
+  scalar muscle_spring_4_ = 173.4590131009512;  // by its share [N/m]
+  scalar muscle_damper_4_ = 5.253213364600741;  // by its share [N s/m]
+  scalar muscle_spring_5_ = 540.1705144288827;  // by its share [N/m]
+  scalar muscle_damper_5_ = 1.7748930251665798;  // by its share [N s/m]
+  scalar muscle_spring_1_muscle_damper_1_ratio_ = 4.378694283629756e-05;  // a sample over the relaxation time [1]
+  scalar muscle_spring_1_muscle_damper_1_kept_ = 0.9999781068481277;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_spring_1_muscle_damper_1_loss_ = 4.378598420210802e-05;  // α, what is lost in a sample [1]
+  scalar muscle_spring_2_muscle_damper_2_ratio_ = 0.0006473725424099939;  // a sample over the relaxation time [1]
+  scalar muscle_spring_2_muscle_damper_2_kept_ = 0.9996763835660267;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_spring_2_muscle_damper_2_loss_ = 0.0006471630420163669;  // α, what is lost in a sample [1]
+  scalar muscle_spring_3_muscle_damper_3_ratio_ = 0.004623416866475189;  // a sample over the relaxation time [1]
+  scalar muscle_spring_3_muscle_damper_3_kept_ = 0.9976918501165674;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_spring_3_muscle_damper_3_loss_ = 0.0046127453273737745;  // α, what is lost in a sample [1]
+  scalar muscle_spring_4_muscle_damper_4_ratio_ = 0.03301960172983276;  // a sample over the relaxation time [1]
+  scalar muscle_spring_4_muscle_damper_4_kept_ = 0.9836704246251956;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_spring_4_muscle_damper_4_loss_ = 0.03248040565453943;  // α, what is lost in a sample [1]
+  scalar muscle_spring_5_muscle_damper_5_ratio_ = 0.30433975837962735;  // a sample over the relaxation time [1]
+  scalar muscle_spring_5_muscle_damper_5_kept_ = 0.862160720557397;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_spring_5_muscle_damper_5_loss_ = 0.2623897853788436;  // α, what is lost in a sample [1]
+  scalar step_stiffness_ = 891.9493558025447;  // what springs answer in a sample [N/m]
+  scalar muscle_damper_1_to_muscle_damper_5_sum_ = 1625.577561857746;  // of these together [N s/m]
+  scalar steady_brake_ = 1625.577561857746;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = -1625.577561857746;  // b∞ − b [N·s/m]
+  scalar last_brake_ = 1625.577561857746;  // b of the sample before [N·s/m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar rest_elongation_ = 0;  // z [m]
+  scalar muscle_spring_1_muscle_damper_1_elongation_ = 0;  // z [m]
+  scalar muscle_spring_1_muscle_damper_1_carried_stiffness_ = 66.35387265580675;  // k for which the force is what it is [N/m]
+  scalar muscle_spring_2_muscle_damper_2_elongation_ = 0;  // z [m]
+  scalar muscle_spring_2_muscle_damper_2_carried_stiffness_ = 53.32263525751097;  // k for which the force is what it is [N/m]
+  scalar muscle_spring_3_muscle_damper_3_elongation_ = 0;  // z [m]
+  scalar muscle_spring_3_muscle_damper_3_carried_stiffness_ = 96.17323789760766;  // k for which the force is what it is [N/m]
+  scalar muscle_spring_4_muscle_damper_4_elongation_ = 0;  // z [m]
+  scalar muscle_spring_4_muscle_damper_4_carried_stiffness_ = 173.4590131009512;  // k for which the force is what it is [N/m]
+  scalar muscle_spring_5_muscle_damper_5_elongation_ = 0;  // z [m]
+  scalar muscle_spring_5_muscle_damper_5_carried_stiffness_ = 540.1705144288827;  // k for which the force is what it is [N/m]
+  scalar rest_offset_ = 0;  // r, how far its rest length is from home [m]
+  scalar tank_ = 0;  // T, set free by changes of parameters [J]
   scalar last_position_ = 0;  // u of the sample before [m]
-  scalar K_ = 120.0;  // parameter [N/m]
-  dashpot::tunable_law<scalar, 6, 1, 1, 1, 0, 1, 0> law_;
-  scalar muscle_spring_1_ = muscle_spring_1_share * K_;  // by its share [N/m]
-  scalar muscle_damper_1_ = muscle_damper_1_share * K_;  // by its share [N s/m]
-  scalar muscle_spring_2_ = muscle_spring_2_share * K_;  // by its share [N/m]
-  scalar muscle_damper_2_ = muscle_damper_2_share * K_;  // by its share [N s/m]
-  scalar muscle_spring_3_ = muscle_spring_3_share * K_;  // by its share [N/m]
-  scalar muscle_damper_3_ = muscle_damper_3_share * K_;  // by its share [N s/m]
-  scalar muscle_spring_4_ = muscle_spring_4_share * K_;  // by its share [N/m]
-  scalar muscle_damper_4_ = muscle_damper_4_share * K_;  // by its share [N s/m]
-  scalar muscle_spring_5_ = muscle_spring_5_share * K_;  // by its share [N/m]
-  scalar muscle_damper_5_ = muscle_damper_5_share * K_;  // by its share [N s/m]
-  // a sample over the relaxation time [1]
-  scalar muscle_spring_1_muscle_damper_1_ratio_ = muscle_damper_1_ > 0 ? dashpot::clamp_to(largest_ratio,
-      muscle_spring_1_ * period / muscle_damper_1_) : (muscle_spring_1_ > 0 ? largest_ratio : zero);
-  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_spring_1_muscle_damper_1_kept_ = dashpot::mean_decay(muscle_spring_1_muscle_damper_1_ratio_);
-  // α, what is lost in a sample [1]
-  scalar muscle_spring_1_muscle_damper_1_loss_ = muscle_spring_1_muscle_damper_1_ratio_ *
-      muscle_spring_1_muscle_damper_1_kept_;
-  // a sample over the relaxation time [1]
-  scalar muscle_spring_2_muscle_damper_2_ratio_ = muscle_damper_2_ > 0 ? dashpot::clamp_to(largest_ratio,
-      muscle_spring_2_ * period / muscle_damper_2_) : (muscle_spring_2_ > 0 ? largest_ratio : zero);
-  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_spring_2_muscle_damper_2_kept_ = dashpot::mean_decay(muscle_spring_2_muscle_damper_2_ratio_);
-  // α, what is lost in a sample [1]
-  scalar muscle_spring_2_muscle_damper_2_loss_ = muscle_spring_2_muscle_damper_2_ratio_ *
-      muscle_spring_2_muscle_damper_2_kept_;
-  // a sample over the relaxation time [1]
-  scalar muscle_spring_3_muscle_damper_3_ratio_ = muscle_damper_3_ > 0 ? dashpot::clamp_to(largest_ratio,
-      muscle_spring_3_ * period / muscle_damper_3_) : (muscle_spring_3_ > 0 ? largest_ratio : zero);
-  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_spring_3_muscle_damper_3_kept_ = dashpot::mean_decay(muscle_spring_3_muscle_damper_3_ratio_);
-  // α, what is lost in a sample [1]
-  scalar muscle_spring_3_muscle_damper_3_loss_ = muscle_spring_3_muscle_damper_3_ratio_ *
-      muscle_spring_3_muscle_damper_3_kept_;
-  // a sample over the relaxation time [1]
-  scalar muscle_spring_4_muscle_damper_4_ratio_ = muscle_damper_4_ > 0 ? dashpot::clamp_to(largest_ratio,
-      muscle_spring_4_ * period / muscle_damper_4_) : (muscle_spring_4_ > 0 ? largest_ratio : zero);
-  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_spring_4_muscle_damper_4_kept_ = dashpot::mean_decay(muscle_spring_4_muscle_damper_4_ratio_);
-  // α, what is lost in a sample [1]
-  scalar muscle_spring_4_muscle_damper_4_loss_ = muscle_spring_4_muscle_damper_4_ratio_ *
-      muscle_spring_4_muscle_damper_4_kept_;
-  // a sample over the relaxation time [1]
-  scalar muscle_spring_5_muscle_damper_5_ratio_ = muscle_damper_5_ > 0 ? dashpot::clamp_to(largest_ratio,
-      muscle_spring_5_ * period / muscle_damper_5_) : (muscle_spring_5_ > 0 ? largest_ratio : zero);
-  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_spring_5_muscle_damper_5_kept_ = dashpot::mean_decay(muscle_spring_5_muscle_damper_5_ratio_);
-  // α, what is lost in a sample [1]
-  scalar muscle_spring_5_muscle_damper_5_loss_ = muscle_spring_5_muscle_damper_5_ratio_ *
-      muscle_spring_5_muscle_damper_5_kept_;
-  // what springs answer in a sample [N/m]
-  scalar step_stiffness_ = law_.set(tables, {rest, muscle_spring_1_, muscle_damper_1_, muscle_spring_2_,
-      muscle_damper_2_, muscle_spring_3_, muscle_damper_3_, muscle_spring_4_, muscle_damper_4_, muscle_spring_5_,
-      muscle_damper_5_, muscle_spring_1_muscle_damper_1_kept_, muscle_spring_1_muscle_damper_1_loss_,
-      muscle_spring_2_muscle_damper_2_kept_, muscle_spring_2_muscle_damper_2_loss_,
-      muscle_spring_3_muscle_damper_3_kept_, muscle_spring_3_muscle_damper_3_loss_,
-      muscle_spring_4_muscle_damper_4_kept_, muscle_spring_4_muscle_damper_4_loss_,
-      muscle_spring_5_muscle_damper_5_kept_, muscle_spring_5_muscle_damper_5_loss_});
-  // of these together [N s/m]
-  scalar muscle_damper_1_to_muscle_damper_5_sum_ = muscle_damper_1_to_muscle_damper_5_share * K_ +
-      muscle_damper_1_to_muscle_damper_5_share_2 * K_ + muscle_damper_1_to_muscle_damper_5_share_3 * K_ +
-      muscle_damper_1_to_muscle_damper_5_share_4 * K_ + muscle_damper_1_to_muscle_damper_5_share_5 * K_;
-  scalar steady_brake_ = muscle_damper_1_to_muscle_damper_5_sum_;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = no_damping - steady_brake_;  // b∞ − b [N·s/m]
-  scalar held_force_ = law_.reset(tables, last_position_);  // π, what springs hold [N]
-  scalar last_brake_ = steady_brake_;  // b of the sample before [N·s/m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -11,17 +11,17 @@
 //   least 8 N·s/m is there, 8.4 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 5.7e-15 of the sum of the force's terms
+//   falls; rounding adds at most 3.1e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: K1 (50 to 800 N/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows B1
 //   by backward Euler, since their relaxations mix with a tunable or at several slips: spring_1, B1, K2
-// cost of output(): at most 5 additions, multiplications and divisions
-// cost of update(): at most 46 additions and multiplications; 2 numbers are kept between samples
-// cost of set(): at most 55 additions, multiplications and divisions for the constants, 642 for the springs'
-//   energy
+// cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
+// cost of update(): 14 additions, 9 multiplications, 3 guards against subnormal numbers; 10 numbers are kept
+//   between samples
+// cost of set(): 14 operations for the constants, 67 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -30,7 +30,8 @@
 #pragma once
 
 #include <dashpot/command.hpp>
-#include <dashpot/tunable_law.hpp>
+#include <dashpot/elementary.hpp>
+#include <dashpot/tunable_range.hpp>
 
 namespace dashpot::generated {
 
@@ -62,7 +63,23 @@ class standard_solid_tunable {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_position_change_ = 0;
-    held_force_ = law_.reset(tables, last_position_);
+    spring_1_offset_ = 0;
+    tank_ = 0;
+    const scalar loaded_node_1_sum = K1_ + K2;
+    const scalar loaded_node_1_quotient = loaded_node_1_sum > 0 ? one / loaded_node_1_sum : zero;
+    const scalar loaded_node_1_inverse = one - (loaded_node_1_quotient - loaded_node_1_quotient) > 0 ?
+        loaded_node_1_quotient : zero;
+    const scalar loaded_node_1_port_share = K1_ * loaded_node_1_inverse;
+    const scalar loaded_node_1_moved = loaded_node_1_port_share * last_position_;
+    // z = δ
+    spring_1_elongation_ = dashpot::flush_below(threshold, last_position_ - loaded_node_1_moved);
+    // z = δ
+    K2_elongation_ = dashpot::flush_below(threshold, loaded_node_1_moved);
+    const scalar spring_1_force = K1_ * (spring_1_elongation_ - spring_1_offset_);
+    const scalar K2_force = K2 * K2_elongation_;
+    node_1_push_ = zero + spring_1_force - K2_force;
+    // π
+    held_force_ = spring_1_force - node_1_port_share_ * node_1_push_;
     last_brake_ = steady_brake_;
     sampled_ = false;
   }
@@ -89,16 +106,62 @@ class standard_solid_tunable {
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
-    held_force_ = law_.update(tables, sampled_position_change_, sampled_position_);
+    const scalar node_1_moved = node_1_inverse_ * node_1_push_ + node_1_port_share_ * sampled_position_change_;
+    // z ← z + δ
+    spring_1_elongation_ = dashpot::flush_below(threshold, spring_1_elongation_ +
+        (sampled_position_change_ - node_1_moved));
+    // z ← z + δ
+    K2_elongation_ = dashpot::flush_below(threshold, K2_elongation_ + node_1_moved);
+    const scalar spring_1_offset_after = dashpot::flush_below(threshold, retention * spring_1_offset_);
+    const scalar spring_1_offset_cost = K1_ * (spring_1_offset_ - spring_1_offset_after) *
+        (spring_1_elongation_ - spring_1_offset_after + (spring_1_elongation_ - spring_1_offset_)) * half;
+    const scalar spring_1_offset_unpaid = spring_1_offset_cost - tank_;
+    // r goes home where the tank pays
+    spring_1_offset_ = spring_1_offset_unpaid > 0 ? spring_1_offset_ : spring_1_offset_after;
+    tank_ = spring_1_offset_unpaid > 0 ? tank_ : tank_ - spring_1_offset_cost;
+    const scalar spring_1_force = K1_ * (spring_1_elongation_ - spring_1_offset_);
+    const scalar K2_force = K2 * K2_elongation_;
+    node_1_push_ = zero + spring_1_force - K2_force;
+    // π
+    held_force_ = spring_1_force - node_1_port_share_ * node_1_push_;
     // u₋ = u
     last_position_ = sampled_position_;
   }
 
   // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = step_stiffness_ * position_change + held_force_ + velocity_gain_ * velocity;
+    // b
+    const scalar brake = steady_brake_;
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {last_brake_, 0};
+    }
+    last_brake_ = brake;
+    const scalar node_1_moved = node_1_inverse_ * node_1_push_ + node_1_port_share_ * position_change;
+    // z ← z + δ
+    spring_1_elongation_ = dashpot::flush_below(threshold, spring_1_elongation_ + (position_change - node_1_moved));
+    // z ← z + δ
+    K2_elongation_ = dashpot::flush_below(threshold, K2_elongation_ + node_1_moved);
+    const scalar spring_1_offset_after = dashpot::flush_below(threshold, retention * spring_1_offset_);
+    const scalar spring_1_offset_cost = K1_ * (spring_1_offset_ - spring_1_offset_after) *
+        (spring_1_elongation_ - spring_1_offset_after + (spring_1_elongation_ - spring_1_offset_)) * half;
+    const scalar spring_1_offset_unpaid = spring_1_offset_cost - tank_;
+    // r goes home where the tank pays
+    spring_1_offset_ = spring_1_offset_unpaid > 0 ? spring_1_offset_ : spring_1_offset_after;
+    tank_ = spring_1_offset_unpaid > 0 ? tank_ : tank_ - spring_1_offset_cost;
+    const scalar spring_1_force = K1_ * (spring_1_elongation_ - spring_1_offset_);
+    const scalar K2_force = K2 * K2_elongation_;
+    node_1_push_ = zero + spring_1_force - K2_force;
+    // π
+    held_force_ = spring_1_force - node_1_port_share_ * node_1_push_;
+    // u₋ = u
+    last_position_ = position;
+    sampled_ = false;
+    return {brake, force};
   }
 
   // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its
@@ -107,67 +170,116 @@ class standard_solid_tunable {
     update();
     unsigned clamped = 0;
     clamped |= dashpot::take_value(tunables[0], wanted.K1, K1_) << 0;
-    springs_stiffness_ = law_.set(tables, {B1, K1_, K2});
-    held_force_ = law_.held(tables);
-    const auto& meshes = law_.meshes(tables);
-    mesh_stiffness_ = meshes.stiffness;
-    mesh_feedthrough_ = meshes.feedthrough;
+    const scalar node_1_to_port = rate * B1 + K1_;
+    const scalar node_1_sum = node_1_to_port + K2;
+    const scalar node_1_quotient = node_1_sum > 0 ? one / node_1_sum : zero;
+    node_1_inverse_ = one - (node_1_quotient - node_1_quotient) > 0 ? node_1_quotient : zero;
+    node_1_port_share_ = node_1_to_port * node_1_inverse_;
+    const scalar through_node_1 = node_1_port_share_ * K2;
+    // g of what joins tool and ground
+    springs_stiffness_ = zero;
+    // g − b∞/T of meshes
+    mesh_stiffness_ = through_node_1 - zero * rate;
+    // b∞ of meshes
+    mesh_feedthrough_ = zero;
     step_stiffness_ = springs_stiffness_ + mesh_stiffness_;
     // b follows B1
     steady_brake_ = B1;
     // b∞ − b
     velocity_gain_ = mesh_feedthrough_ - steady_brake_;
+    const scalar spring_1_force_before = spring_1_carried_stiffness_ * (spring_1_elongation_ - spring_1_offset_);
+    // F, or F √(k′/k) of a softer spring
+    const scalar spring_1_force_kept = spring_1_carried_stiffness_ - K1_ > 0 ? (K1_ > 0 ? spring_1_force_before *
+        dashpot::square_root(K1_ / spring_1_carried_stiffness_) : zero) : spring_1_force_before;
+    const scalar spring_1_energy_before = spring_1_carried_stiffness_ > 0 ? spring_1_force_before *
+        (spring_1_force_before / spring_1_carried_stiffness_) / two : zero;
+    const scalar spring_1_energy_after = K1_ > 0 ? spring_1_force_before *
+        (spring_1_force_before / K1_) / two : zero;
+    tank_ = tank_ + (K1_ - spring_1_carried_stiffness_ > 0 ? spring_1_energy_before - spring_1_energy_after :
+        zero) + (K1_ > 0 ? zero : spring_1_energy_before);
+    const scalar spring_1_energy_held = K1_ > 0 ? spring_1_force_kept * (spring_1_force_kept / K1_) / two : zero;
+    const scalar spring_1_energy_missing = spring_1_energy_after - spring_1_energy_held;
+    const scalar spring_1_force_most = dashpot::square_root(two * K1_ * (spring_1_energy_held + tank_));
+    const scalar spring_1_force_short = spring_1_force_kept - spring_1_force_before;
+    const scalar spring_1_force_short_size = spring_1_force_short > 0 ? spring_1_force_short :
+        zero - spring_1_force_short;
+    const scalar spring_1_falls_short = K1_ > 0 ? spring_1_force_short_size : zero;
+    const scalar spring_1_energy_unpaid = spring_1_energy_missing - tank_;
+    // F, as far as the tank pays
+    const scalar spring_1_force_after = spring_1_falls_short > 0 ? (spring_1_energy_unpaid > 0 ?
+        (spring_1_force_before > 0 ? spring_1_force_most : minus_one *
+        spring_1_force_most) : spring_1_force_before) : spring_1_force_kept;
+    tank_ = spring_1_falls_short > 0 ? (spring_1_energy_unpaid > 0 ? zero : tank_ - spring_1_energy_missing) :
+        tank_;
+    const scalar spring_1_force_change = spring_1_force_after - spring_1_force_before;
+    const scalar spring_1_force_change_size = spring_1_force_change > 0 ? spring_1_force_change :
+        zero - spring_1_force_change;
+    const scalar spring_1_stiffness_change = K1_ - spring_1_carried_stiffness_;
+    const scalar spring_1_stiffness_change_size = spring_1_stiffness_change > 0 ? spring_1_stiffness_change :
+        zero - spring_1_stiffness_change;
+    const scalar spring_1_is_changed = spring_1_force_change_size + spring_1_stiffness_change_size;
+    const scalar spring_1_offset_exact = K1_ > 0 ? spring_1_elongation_ - spring_1_force_after / K1_ : zero;
+    const scalar spring_1_offset_seen = spring_1_elongation_ +
+        spring_1_offset_exact * quarter - spring_1_elongation_;
+    const scalar spring_1_offset_seen_size = spring_1_offset_seen > 0 ? spring_1_offset_seen :
+        zero - spring_1_offset_seen;
+    // r = z − F/k
+    spring_1_offset_ = spring_1_is_changed > 0 ? (spring_1_offset_seen_size > 0 ? spring_1_offset_exact : zero) :
+        spring_1_offset_;
+    spring_1_carried_stiffness_ = K1_;
+    const scalar spring_1_force = K1_ * (spring_1_elongation_ - spring_1_offset_);
+    const scalar K2_force = K2 * K2_elongation_;
+    node_1_push_ = zero + spring_1_force - K2_force;
+    // π
+    held_force_ = spring_1_force - node_1_port_share_ * node_1_push_;
     return clamped;
   }
 
   // In the springs, and set free by changes of parameters, after the last update() [J].
   scalar stored_energy() const noexcept {
     // V + T: in the springs, and what changes of parameters have set free
-    const scalar stored = law_.stored_energy(tables);
+    const scalar stored = tank_ +
+        K1_ * (spring_1_elongation_ - spring_1_offset_) * (spring_1_elongation_ - spring_1_offset_) * half +
+        K2 * K2_elongation_ * K2_elongation_ * half;
     return stored;
   }
 
  private:
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar B1 = 8.0;  // as in the network [N s/m]
   static constexpr scalar K2 = 600.0;  // as in the network [N/m]
+  static constexpr scalar rate = 1000.0;  // 1/T [Hz]
+  static constexpr scalar zero = 0.0;  // nothing [1]
+  static constexpr scalar one = 1.0;  // one [1]
+  static constexpr scalar two = 2.0;  // two [1]
+  static constexpr scalar minus_one = -1.0;  // minus one [1]
+  static constexpr scalar quarter = 0.25;  // a quarter [1]
+  static constexpr scalar retention = 0.9900498337491681;  // what an offset keeps in a sample [1]
+  static constexpr scalar half = 0.5;  // a half [1]
   static constexpr dashpot::tunable_range<scalar> tunables[1] = {
       {200.0, 50.0, 800.0},  // K1 [N/m]
   };
-  static constexpr int springs[2] = {
-      1,  // spring_1
-      2,  // K2
-  };
-  static constexpr dashpot::tunable_part parts[1] = {
-      {dashpot::tunable_kind::mesh, -1, -1, -1, -1, 0, 1, 0, 3, false},
-  };
-  static constexpr dashpot::tunable_edge edges[3] = {
-      {-1, 0, -1, 0},
-      {-1, 0, 0, -1},
-      {0, -2, 1, -1},
-  };
-  static constexpr dashpot::tunable_block<scalar> blocks[1] = {
-      {0, 1, 0.0},
-  };
-  static constexpr dashpot::tunable_tables<scalar> tables = {
-      1000.0, 0.9900498337491681, 6.223015277861142e-61, -1,
-      {false, 0.0, 0.0}, {false, 0.0, 1.0},
-      2, 1, 1, 0, 0, 0,
-      springs, parts, edges, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-      0.0, 0.0};
 
+  scalar held_force_ = 0;  // π, what springs hold [N]
+  scalar K1_ = 200.0;  // parameter [N/m]
+  scalar springs_stiffness_ = 0;  // what springs answer in a sample [N/m]
+  scalar mesh_stiffness_ = 559.090909090909;  // what meshes answer in a sample [N/m]
+  scalar mesh_feedthrough_ = 0;  // b∞ of the meshes [N·s/m]
+  scalar step_stiffness_ = 559.090909090909;  // what all answer in a sample [N/m]
+  scalar steady_brake_ = 8.0;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = -8.0;  // b∞ − b [N·s/m]
+  scalar last_brake_ = 8.0;  // b of the sample before [N·s/m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar spring_1_elongation_ = 0;  // z [m]
+  scalar spring_1_carried_stiffness_ = 200.0;  // k for which the force is what it is [N/m]
+  scalar K2_elongation_ = 0;  // z [m]
+  scalar node_1_push_ = 0;  // of springs on an inner node, and what comes to it [N]
+  scalar spring_1_offset_ = 0;  // r, how far its rest length is from home [m]
+  scalar tank_ = 0;  // T, set free by changes of parameters [J]
+  scalar node_1_inverse_ = 0.00011363636363636364;  // of a mesh's elimination [1]
+  scalar node_1_port_share_ = 0.9318181818181818;  // of a mesh's elimination [1]
   scalar last_position_ = 0;  // u of the sample before [m]
-  scalar K1_ = 200.0;  // parameter [N/m]
-  dashpot::tunable_law<scalar, 2, 1, 1, 1, 0, 1, 0> law_;
-  scalar springs_stiffness_ = law_.set(tables, {B1, K1_, K2});  // what springs answer in a sample [N/m]
-  scalar mesh_stiffness_ = law_.meshes(tables).stiffness;  // what meshes answer in a sample [N/m]
-  scalar mesh_feedthrough_ = law_.meshes(tables).feedthrough;  // b∞ of the meshes [N·s/m]
-  scalar step_stiffness_ = springs_stiffness_ + mesh_stiffness_;  // what all answer in a sample [N/m]
-  scalar steady_brake_ = B1;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = mesh_feedthrough_ - steady_brake_;  // b∞ − b [N·s/m]
-  scalar held_force_ = law_.reset(tables, last_position_);  // π, what springs hold [N]
-  scalar last_brake_ = steady_brake_;  // b of the sample before [N·s/m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

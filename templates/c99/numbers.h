@@ -68,3 +68,17 @@ static inline scalar law_mean_decay(scalar x) {
 }
 
 #endif
+#if RANGES
+typedef struct law_range_of_parameter {
+  scalar min;
+  scalar max;
+} law_range_of_parameter;
+
+// `value` becomes what is wanted of it, within its range; what is no number at all leaves it as it is. Returns 1 where
+// that is not what was wanted, else 0.
+static inline unsigned law_take_value(const law_range_of_parameter *range, scalar wanted, scalar *value) {
+  if (wanted == wanted) *value = (wanted < range->min) ? range->min : ((wanted > range->max) ? range->max : wanted);
+  return (*value == wanted) ? 0u : 1u;
+}
+
+#endif

@@ -12,9 +12,11 @@
 #include "certify/motor_limits.hpp"
 #include "law/evaluate.hpp"
 #include "lower/shed.hpp"
+#include "lower/spell_out.hpp"
 #include "random_cases.hpp"
 #include "support/random_network.hpp"
 #include "support/repetitions.hpp"
+#include "support/tunable_run.hpp"
 
 namespace dashpot::testing {
 namespace {
@@ -224,21 +226,27 @@ TEST(MotorLimits, SheddingSlipsNeedTheirDamping) {
   EXPECT_GT(gained, tried / 10) << gained << " of " << tried;
 }
 
-// A network on an ideal device, without an estimate of the velocity.
+// A law with these limits of a motor, where there are any.
+UpdateLaw with_limits(UpdateLaw law, const std::optional<MotorReach>& reach) {
+  if (reach) law = with_shedding(std::move(law), *reach, motion::translation);
+  return spelled_out(std::move(law), motion::translation);
+}
+
+// A network on an ideal device, without an estimate of the velocity; what is tunable is not spelled out yet.
 UpdateLaw velocity_free_law(const std::string& structure) {
   const SourceFile source("structure.json", R"({ "dashpot": 1, "name": "structure", )" + structure + " }");
   Diagnostics diagnostics;
   Choices choices;
   choices.decomposition = std::string("velocity-free");
-  return compile(source, choices, std::nullopt, diagnostics).value().law;
+  return before_spelling_out(compile(source, choices, std::nullopt, diagnostics).value(), choices);
 }
 
 // 1 kN/m on a motor of limited slew, by a law that sheds or by one that does not know: pressed fast, held, and slowly
 // let go of. The motor goes to what it is told as fast as it can. Out: the energy that has gone in [J].
 double pressed_and_let_go(const std::string& structure, bool sheds) {
   const double period = 1e-3, slew = 2000;
-  UpdateLaw update = velocity_free_law(structure);
-  if (sheds) update = with_shedding(std::move(update), {0, slew * period}, motion::translation);
+  const auto reach = sheds ? std::optional(MotorReach{0, slew * period}) : std::nullopt;
+  const UpdateLaw update = with_limits(velocity_free_law(structure), reach);
   Evaluation<double> law(update);
   law.reset(0);
   double energy = 0, position = 0, made = 0;
@@ -281,8 +289,8 @@ TEST(MotorLimits, SlewGivesNothingBackThatItDidNotTake) {
 // more, before offsets are home. Out: the energy that has gone in [J].
 double pressed_softened_and_let_go(const std::string& structure, bool sheds) {
   const double limit = 2;
-  UpdateLaw update = velocity_free_law(structure);
-  if (sheds) update = with_shedding(std::move(update), {limit, 0}, motion::translation);
+  const auto reach = sheds ? std::optional(MotorReach{limit, 0}) : std::nullopt;
+  const UpdateLaw update = with_limits(velocity_free_law(structure), reach);
   Evaluation<double> law(update);
   law.reset(0);
   double energy = 0, position = 0, force = 0, beta = 500;
@@ -320,10 +328,11 @@ TEST(MotorLimits, CommandsStayWithinLimitAndSlew) {
                                        : linear_case(seed, "virtual");
     if (!one.compilation || one.compilation->law.sheds()) continue;
     Random random(seed);
-    const UpdateLaw& plain = one.compilation->law;
+    const UpdateLaw unlimited = before_spelling_out(*one.compilation, one.choices);
     const MotorReach reach = {random.log_uniform(1e-3, 1), random.chance(0.5) ? random.log_uniform(1e-4, 1) : 0};
-    const UpdateLaw wide = with_shedding(plain, {1e300, reach.step > 0 ? 1e300 : 0}, motion::translation);
-    const UpdateLaw narrow = with_shedding(plain, reach, motion::translation);
+    const UpdateLaw plain = with_limits(unlimited, std::nullopt);
+    const UpdateLaw wide = with_limits(unlimited, MotorReach{1e300, reach.step > 0 ? 1e300 : 0});
+    const UpdateLaw narrow = with_limits(unlimited, reach);
     Evaluation<double> alone(plain), free(wide), held(narrow);
     for (Evaluation<double>* law : {&alone, &free, &held}) law->reset(0);
     double position = 0, last = 0;

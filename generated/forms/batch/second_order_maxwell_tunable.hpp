@@ -13,16 +13,16 @@
 //   least 5.5 N·s/m is there, 0.0652 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 6.6e-15 of the sum of the force's terms
+//   falls; rounding adds at most 3.9e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows B1 + damper_3
-// cost of output(): at most 5 additions, multiplications and divisions
-// cost of update(): at most 54 additions and multiplications; 3 numbers are kept between samples
-// cost of set(): at most 154 additions, multiplications and divisions for the constants, 900 for the springs'
-//   energy
+// cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
+// cost of update(): 15 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers are kept
+//   between samples
+// cost of set(): 132 operations for the constants, 107 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -32,7 +32,8 @@
 
 #include <dashpot/command.hpp>
 #include <dashpot/exponential.hpp>
-#include <dashpot/tunable_law.hpp>
+#include <dashpot/elementary.hpp>
+#include <dashpot/tunable_range.hpp>
 
 namespace dashpot::generated {
 
@@ -65,7 +66,16 @@ class second_order_maxwell_tunable {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_position_change_ = 0;
-    held_force_ = law_.reset(tables, last_position_);
+    B1_spring_2_elongation_ = 0;
+    damper_3_K2_elongation_ = 0;
+    K3_offset_ = 0;
+    tank_ = 0;
+    // z = u
+    K3_elongation_ = last_position_;
+    // π
+    held_force_ = K3 * (K3_elongation_ - K3_offset_) +
+        (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
+        (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
     last_brake_ = steady_brake_;
     sampled_ = false;
   }
@@ -92,16 +102,65 @@ class second_order_maxwell_tunable {
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
-    held_force_ = law_.update(tables, sampled_position_change_, sampled_position_);
+    // z ← z + φ δ − α z
+    B1_spring_2_elongation_ = dashpot::flush_below(threshold, B1_spring_2_elongation_ +
+        (B1_spring_2_kept_ * sampled_position_change_ - B1_spring_2_loss_ * B1_spring_2_elongation_));
+    // z ← z + φ δ − α z
+    damper_3_K2_elongation_ = dashpot::flush_below(threshold, damper_3_K2_elongation_ +
+        (damper_3_K2_kept_ * sampled_position_change_ - damper_3_K2_loss_ * damper_3_K2_elongation_));
+    // z = u
+    K3_elongation_ = sampled_position_;
+    const scalar K3_offset_after = dashpot::flush_below(threshold, retention * K3_offset_);
+    const scalar K3_offset_cost = K3 * (K3_offset_ - K3_offset_after) * (K3_elongation_ - K3_offset_after +
+        (K3_elongation_ - K3_offset_)) * half;
+    const scalar K3_offset_unpaid = K3_offset_cost - tank_;
+    // r goes home where the tank pays
+    K3_offset_ = K3_offset_unpaid > 0 ? K3_offset_ : K3_offset_after;
+    tank_ = K3_offset_unpaid > 0 ? tank_ : tank_ - K3_offset_cost;
+    // π
+    held_force_ = K3 * (K3_elongation_ - K3_offset_) +
+        (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
+        (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
     // u₋ = u
     last_position_ = sampled_position_;
   }
 
   // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = step_stiffness_ * position_change + held_force_ + velocity_gain_ * velocity;
+    // b
+    const scalar brake = steady_brake_;
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {last_brake_, 0};
+    }
+    last_brake_ = brake;
+    // z ← z + φ δ − α z
+    B1_spring_2_elongation_ = dashpot::flush_below(threshold, B1_spring_2_elongation_ +
+        (B1_spring_2_kept_ * position_change - B1_spring_2_loss_ * B1_spring_2_elongation_));
+    // z ← z + φ δ − α z
+    damper_3_K2_elongation_ = dashpot::flush_below(threshold, damper_3_K2_elongation_ +
+        (damper_3_K2_kept_ * position_change - damper_3_K2_loss_ * damper_3_K2_elongation_));
+    // z = u
+    K3_elongation_ = position;
+    const scalar K3_offset_after = dashpot::flush_below(threshold, retention * K3_offset_);
+    const scalar K3_offset_cost = K3 * (K3_offset_ - K3_offset_after) * (K3_elongation_ - K3_offset_after +
+        (K3_elongation_ - K3_offset_)) * half;
+    const scalar K3_offset_unpaid = K3_offset_cost - tank_;
+    // r goes home where the tank pays
+    K3_offset_ = K3_offset_unpaid > 0 ? K3_offset_ : K3_offset_after;
+    tank_ = K3_offset_unpaid > 0 ? tank_ : tank_ - K3_offset_cost;
+    // π
+    held_force_ = K3 * (K3_elongation_ - K3_offset_) +
+        (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
+        (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
+    // u₋ = u
+    last_position_ = position;
+    sampled_ = false;
+    return {brake, force};
   }
 
   // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its
@@ -123,25 +182,90 @@ class second_order_maxwell_tunable {
     damper_3_K2_kept_ = dashpot::mean_decay(damper_3_K2_ratio_);
     // α = x φ
     damper_3_K2_loss_ = damper_3_K2_ratio_ * damper_3_K2_kept_;
-    step_stiffness_ = law_.set(tables, {K3, K1_, B1, K2, B2_, B1_spring_2_kept_, B1_spring_2_loss_,
-        damper_3_K2_kept_, damper_3_K2_loss_});
-    held_force_ = law_.held(tables);
+    // g of what joins tool and ground
+    step_stiffness_ = K3 + K1_ * B1_spring_2_kept_ + K2 * damper_3_K2_kept_;
     B1_damper_3_sum_ = B1_damper_3 + B2_;
     // b follows B1 + damper_3
     steady_brake_ = B1_damper_3_sum_;
     // b∞ − b
     velocity_gain_ = no_damping - steady_brake_;
+    const scalar K3_force_before = K3 * (K3_elongation_ - K3_offset_);
+    const scalar B1_spring_2_force_before = B1_spring_2_carried_stiffness_ * B1_spring_2_elongation_;
+    // F, or F √(k′/k) of a softer spring
+    const scalar B1_spring_2_force_kept = B1_spring_2_carried_stiffness_ - K1_ > 0 ? (K1_ > 0 ?
+        B1_spring_2_force_before *
+        dashpot::square_root(K1_ / B1_spring_2_carried_stiffness_) : zero) : B1_spring_2_force_before;
+    const scalar B1_spring_2_energy_before = B1_spring_2_carried_stiffness_ > 0 ? B1_spring_2_force_before *
+        (B1_spring_2_force_before / B1_spring_2_carried_stiffness_) / two : zero;
+    const scalar B1_spring_2_energy_after = K1_ > 0 ? B1_spring_2_force_before *
+        (B1_spring_2_force_before / K1_) / two : zero;
+    tank_ = tank_ + (K1_ - B1_spring_2_carried_stiffness_ > 0 ?
+        B1_spring_2_energy_before - B1_spring_2_energy_after : zero) + (K1_ > 0 ? zero : B1_spring_2_energy_before);
+    const scalar B1_spring_2_energy_held = K1_ > 0 ? B1_spring_2_force_kept *
+        (B1_spring_2_force_kept / K1_) / two : zero;
+    const scalar B1_spring_2_energy_missing = B1_spring_2_energy_after - B1_spring_2_energy_held;
+    const scalar B1_spring_2_force_most = dashpot::square_root(two * K1_ * (B1_spring_2_energy_held + tank_));
+    const scalar B1_spring_2_force_short = B1_spring_2_force_kept - B1_spring_2_force_before;
+    const scalar B1_spring_2_force_short_size = B1_spring_2_force_short > 0 ? B1_spring_2_force_short :
+        zero - B1_spring_2_force_short;
+    const scalar B1_spring_2_falls_short = K1_ > 0 ? B1_spring_2_force_short_size : zero;
+    const scalar B1_spring_2_energy_unpaid = B1_spring_2_energy_missing - tank_;
+    // F, as far as the tank pays
+    const scalar B1_spring_2_force_after = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ?
+        (B1_spring_2_force_before > 0 ? B1_spring_2_force_most : minus_one *
+        B1_spring_2_force_most) : B1_spring_2_force_before) : B1_spring_2_force_kept;
+    tank_ = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ? zero :
+        tank_ - B1_spring_2_energy_missing) : tank_;
+    const scalar missing_force = K3_force_before - K3_force_before +
+        (B1_spring_2_force_before - B1_spring_2_force_after);
+    const scalar energy_at_hand = (K3 > 0 ? K3_force_before * (K3_force_before / K3) / two : zero) + tank_;
+    const scalar most_force = dashpot::square_root(two * K3 * energy_at_hand);
+    const scalar wanted_force = K3_force_before + missing_force;
+    const scalar least_force = minus_one * most_force;
+    const scalar made_up_force = wanted_force - most_force > 0 ? most_force : (least_force - wanted_force > 0 ?
+        least_force : wanted_force);
+    const scalar missing_size = missing_force > 0 ? missing_force : zero - missing_force;
+    const scalar is_missing = K3 > 0 ? missing_size : zero;
+    const scalar energy_left = energy_at_hand - (K3 > 0 ? made_up_force * (made_up_force / K3) / two : zero);
+    // F of the static spring
+    const scalar K3_force_made_up = is_missing > 0 ? made_up_force : K3_force_before;
+    tank_ = is_missing > 0 ? (energy_left > 0 ? energy_left : zero) : tank_;
+    const scalar K3_force_change = K3_force_made_up - K3_force_before;
+    const scalar K3_force_change_size = K3_force_change > 0 ? K3_force_change : zero - K3_force_change;
+    const scalar K3_offset_exact = K3 > 0 ? K3_elongation_ - K3_force_made_up / K3 : zero;
+    const scalar K3_offset_seen = K3_elongation_ + K3_offset_exact * quarter - K3_elongation_;
+    const scalar K3_offset_seen_size = K3_offset_seen > 0 ? K3_offset_seen : zero - K3_offset_seen;
+    // r = z − F/k
+    K3_offset_ = K3_force_change_size > 0 ? (K3_offset_seen_size > 0 ? K3_offset_exact : zero) : K3_offset_;
+    const scalar B1_spring_2_force_change = B1_spring_2_force_after - B1_spring_2_force_before;
+    const scalar B1_spring_2_force_change_size = B1_spring_2_force_change > 0 ? B1_spring_2_force_change :
+        zero - B1_spring_2_force_change;
+    const scalar B1_spring_2_stiffness_change = K1_ - B1_spring_2_carried_stiffness_;
+    const scalar B1_spring_2_stiffness_change_size = B1_spring_2_stiffness_change > 0 ?
+        B1_spring_2_stiffness_change : zero - B1_spring_2_stiffness_change;
+    const scalar B1_spring_2_is_changed = B1_spring_2_force_change_size + B1_spring_2_stiffness_change_size;
+    // z = F/k
+    B1_spring_2_elongation_ = B1_spring_2_is_changed > 0 ? (K1_ > 0 ? B1_spring_2_force_after / K1_ : zero) :
+        B1_spring_2_elongation_;
+    B1_spring_2_carried_stiffness_ = K1_;
+    // π
+    held_force_ = K3 * (K3_elongation_ - K3_offset_) +
+        (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
+        (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
     return clamped;
   }
 
   // In the springs, and set free by changes of parameters, after the last update() [J].
   scalar stored_energy() const noexcept {
     // V + T: in the springs, and what changes of parameters have set free
-    const scalar stored = law_.stored_energy(tables);
+    const scalar stored = tank_ + K3 * (K3_elongation_ - K3_offset_) * (K3_elongation_ - K3_offset_) * half +
+        K1_ * B1_spring_2_elongation_ * B1_spring_2_elongation_ * half +
+        K2 * damper_3_K2_elongation_ * damper_3_K2_elongation_ * half;
     return stored;
   }
 
  private:
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar K3 = 5.0;  // as in the network [N/m]
   static constexpr scalar B1 = 5.0;  // as in the network [N s/m]
   static constexpr scalar K2 = 10.0;  // as in the network [N/m]
@@ -149,54 +273,40 @@ class second_order_maxwell_tunable {
   static constexpr scalar period = 0.001;  // T [s]
   static constexpr scalar no_damping = 0.0;  // none [N·s/m]
   static constexpr scalar B1_damper_3 = 5.0;  // of what does not change [N s/m]
+  static constexpr scalar zero = 0.0;  // nothing [1]
+  static constexpr scalar two = 2.0;  // two [1]
+  static constexpr scalar minus_one = -1.0;  // minus one [1]
+  static constexpr scalar quarter = 0.25;  // a quarter [1]
+  static constexpr scalar retention = 0.9900498337491681;  // what an offset keeps in a sample [1]
+  static constexpr scalar half = 0.5;  // a half [1]
   static constexpr dashpot::tunable_range<scalar> tunables[2] = {
       {12.0, 0.0, 100.0},  // K1 [N/m]
       {6.0, 0.5, 20.0},  // B2 [N s/m]
   };
-  static constexpr int springs[3] = {
-      0,  // K3
-      1,  // B1_spring_2
-      3,  // damper_3_K2
-  };
-  static constexpr dashpot::tunable_part parts[3] = {
-      {dashpot::tunable_kind::spring, 0, -1, -1, -1, 0, 0, 0, 0, false},  // K3
-      {dashpot::tunable_kind::relaxation, 1, 2, 5, 6, 0, 0, 0, 0, false},  // B1_spring_2
-      {dashpot::tunable_kind::relaxation, 2, 4, 7, 8, 0, 0, 0, 0, false},  // damper_3_K2
-  };
-  static constexpr dashpot::tunable_block<scalar> blocks[1] = {
-      {0, 3, 0.0},
-  };
-  static constexpr dashpot::tunable_tables<scalar> tables = {
-      1000.0, 0.9900498337491681, 6.223015277861142e-61, 0,
-      {false, 0.0, 0.0}, {false, 0.0, 1.0},
-      3, 3, 1, 0, 0, 0,
-      springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-      0.0, 0.0};
 
-  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
-  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
-  scalar last_position_ = 0;  // u of the sample before [m]
+  scalar held_force_ = 0;  // π, what springs hold [N]
   scalar K1_ = 12.0;  // parameter [N/m]
   scalar B2_ = 6.0;  // parameter [N s/m]
-  dashpot::tunable_law<scalar, 3, 1, 1, 1, 0, 1, 0> law_;
-  // a sample over the relaxation time [1]
-  scalar B1_spring_2_ratio_ = dashpot::clamp_to(largest_ratio, K1_ * period / B1);
-  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar B1_spring_2_kept_ = dashpot::mean_decay(B1_spring_2_ratio_);
-  scalar B1_spring_2_loss_ = B1_spring_2_ratio_ * B1_spring_2_kept_;  // α, what is lost in a sample [1]
-  // a sample over the relaxation time [1]
-  scalar damper_3_K2_ratio_ = dashpot::clamp_to(largest_ratio, K2 * period / B2_);
-  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar damper_3_K2_kept_ = dashpot::mean_decay(damper_3_K2_ratio_);
-  scalar damper_3_K2_loss_ = damper_3_K2_ratio_ * damper_3_K2_kept_;  // α, what is lost in a sample [1]
-  // what springs answer in a sample [N/m]
-  scalar step_stiffness_ = law_.set(tables, {K3, K1_, B1, K2, B2_, B1_spring_2_kept_, B1_spring_2_loss_,
-      damper_3_K2_kept_, damper_3_K2_loss_});
-  scalar B1_damper_3_sum_ = B1_damper_3 + B2_;  // of these together [N s/m]
-  scalar steady_brake_ = B1_damper_3_sum_;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = no_damping - steady_brake_;  // b∞ − b [N·s/m]
-  scalar held_force_ = law_.reset(tables, last_position_);  // π, what springs hold [N]
-  scalar last_brake_ = steady_brake_;  // b of the sample before [N·s/m]
+  scalar B1_spring_2_ratio_ = 0.0024000000000000002;  // a sample over the relaxation time [1]
+  scalar B1_spring_2_kept_ = 0.9988009594242764;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar B1_spring_2_loss_ = 0.0023971223026182636;  // α, what is lost in a sample [1]
+  scalar damper_3_K2_ratio_ = 0.0016666666666666668;  // a sample over the relaxation time [1]
+  scalar damper_3_K2_kept_ = 0.9991671294367926;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar damper_3_K2_loss_ = 0.0016652785490613212;  // α, what is lost in a sample [1]
+  scalar step_stiffness_ = 26.977282807459243;  // what springs answer in a sample [N/m]
+  scalar B1_damper_3_sum_ = 11.0;  // of these together [N s/m]
+  scalar steady_brake_ = 11.0;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = -11.0;  // b∞ − b [N·s/m]
+  scalar last_brake_ = 11.0;  // b of the sample before [N·s/m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar K3_elongation_ = 0;  // z [m]
+  scalar B1_spring_2_elongation_ = 0;  // z [m]
+  scalar B1_spring_2_carried_stiffness_ = 12.0;  // k for which the force is what it is [N/m]
+  scalar damper_3_K2_elongation_ = 0;  // z [m]
+  scalar K3_offset_ = 0;  // r, how far its rest length is from home [m]
+  scalar tank_ = 0;  // T, set free by changes of parameters [J]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -13,16 +13,16 @@
 //   least 5.5 N·s/m is there, 0.0652 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 6.6e-15 of the sum of the force's terms
+//   falls; rounding adds at most 3.9e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows B1 + damper_3
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
-// cost of update(): 16 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers are kept
+// cost of update(): 15 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers are kept
 //   between samples
-// cost of set(): at most 242 additions, multiplications and divisions
+// cost of set(): 132 operations for the constants, 107 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -33,7 +33,7 @@
 #include <dashpot/command.hpp>
 #include <dashpot/exponential.hpp>
 #include <dashpot/elementary.hpp>
-#include <dashpot/tunable/tables.hpp>
+#include <dashpot/tunable_range.hpp>
 #include <dashpot/vector.hpp>
 
 namespace dashpot::generated {
@@ -74,7 +74,7 @@ class second_order_maxwell_tunable_batch {
     position = dashpot::all_finite(position, position, position) ? position : scalar(0);
     put(state, 0, 0.0);
     put(state, 10, position);
-    put(state, 11, 0.0);
+    put(state, 11, 11.0);
     put(state, 12, 0.0);
     put(state, 13, 0.0);
     put(state, 15, 0.0);
@@ -94,7 +94,7 @@ class second_order_maxwell_tunable_batch {
     // z = u
     K3_elongation_ = last_position_;
     // π
-    held_force_ = nothing + K3 * (K3_elongation_ - K3_offset_) +
+    held_force_ = K3 * (K3_elongation_ - K3_offset_) +
         (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
         (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
     last_brake_ = steady_brake_;
@@ -138,77 +138,76 @@ class second_order_maxwell_tunable_batch {
     damper_3_K2_kept_ = dashpot::mean_decay(damper_3_K2_ratio_);
     // α = x φ
     damper_3_K2_loss_ = damper_3_K2_ratio_ * damper_3_K2_kept_;
-    const scalar K3_force_before = K3 * (K3_elongation_ - K3_offset_);
-    const scalar B1_spring_2_force_before = B1_spring_2_carried_stiffness_ * B1_spring_2_elongation_;
     // g of what joins tool and ground
-    step_stiffness_ = nothing + K3 + K1_ * B1_spring_2_kept_ + K2 * damper_3_K2_kept_;
-    // F, or F √(k′/k) of a softer spring
-    const scalar B1_spring_2_force_kept = B1_spring_2_carried_stiffness_ - K1_ > 0 ? (K1_ > 0 ?
-        B1_spring_2_force_before *
-        dashpot::square_root(K1_ / B1_spring_2_carried_stiffness_) : nothing) : B1_spring_2_force_before;
-    const scalar B1_spring_2_energy_before = B1_spring_2_carried_stiffness_ > 0 ? B1_spring_2_force_before *
-        (B1_spring_2_force_before / B1_spring_2_carried_stiffness_) / two : nothing;
-    const scalar B1_spring_2_energy_after = K1_ > 0 ? B1_spring_2_force_before *
-        (B1_spring_2_force_before / K1_) / two : nothing;
-    tank_ = tank_ + (K1_ - B1_spring_2_carried_stiffness_ > 0 ?
-        B1_spring_2_energy_before - B1_spring_2_energy_after : nothing) +
-        (K1_ > 0 ? nothing : B1_spring_2_energy_before);
-    const scalar B1_spring_2_energy_held = K1_ > 0 ? B1_spring_2_force_kept *
-        (B1_spring_2_force_kept / K1_) / two : nothing;
-    const scalar B1_spring_2_energy_missing = B1_spring_2_energy_after - B1_spring_2_energy_held;
-    const scalar B1_spring_2_force_most = dashpot::square_root(two * K1_ * (B1_spring_2_energy_held + tank_));
-    const scalar B1_spring_2_force_short = B1_spring_2_force_kept - B1_spring_2_force_before;
-    const scalar B1_spring_2_force_short_size = B1_spring_2_force_short > 0 ? B1_spring_2_force_short :
-        nothing - B1_spring_2_force_short;
-    const scalar B1_spring_2_falls_short = K1_ > 0 ? B1_spring_2_force_short_size : nothing;
-    const scalar B1_spring_2_energy_unpaid = B1_spring_2_energy_missing - tank_;
-    // F, as far as the tank pays
-    const scalar B1_spring_2_force_after = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ?
-        (B1_spring_2_force_before > 0 ? B1_spring_2_force_most : reversed *
-        B1_spring_2_force_most) : B1_spring_2_force_before) : B1_spring_2_force_kept;
-    tank_ = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ? nothing :
-        tank_ - B1_spring_2_energy_missing) : tank_;
-    const scalar missing_force = nothing + (K3_force_before - K3_force_before) +
-        (B1_spring_2_force_before - B1_spring_2_force_after);
-    const scalar energy_at_hand = (K3 > 0 ? K3_force_before * (K3_force_before / K3) / two : nothing) + tank_;
-    const scalar most_force = dashpot::square_root(two * K3 * energy_at_hand);
-    const scalar wanted_force = K3_force_before + missing_force;
-    const scalar least_force = reversed * most_force;
-    const scalar made_up_force = wanted_force - most_force > 0 ? most_force : (least_force - wanted_force > 0 ?
-        least_force : wanted_force);
-    const scalar missing_size = missing_force > 0 ? missing_force : nothing - missing_force;
-    const scalar is_missing = K3 > 0 ? missing_size : nothing;
-    const scalar energy_left = energy_at_hand - (K3 > 0 ? made_up_force * (made_up_force / K3) / two : nothing);
-    // F of the static spring
-    const scalar K3_force_made_up = is_missing > 0 ? made_up_force : K3_force_before;
-    tank_ = is_missing > 0 ? (energy_left > 0 ? energy_left : nothing) : tank_;
-    const scalar K3_force_change = K3_force_made_up - K3_force_before;
-    const scalar K3_force_change_size = K3_force_change > 0 ? K3_force_change : nothing - K3_force_change;
-    const scalar K3_offset_exact = K3 > 0 ? K3_elongation_ - K3_force_made_up / K3 : nothing;
-    const scalar K3_offset_seen = K3_elongation_ + K3_offset_exact * quarter - K3_elongation_;
-    const scalar K3_offset_seen_size = K3_offset_seen > 0 ? K3_offset_seen : nothing - K3_offset_seen;
-    // r = z − F/k
-    K3_offset_ = K3_force_change_size > 0 ? (K3_offset_seen_size > 0 ? K3_offset_exact : nothing) : K3_offset_;
-    const scalar B1_spring_2_force_change = B1_spring_2_force_after - B1_spring_2_force_before;
-    const scalar B1_spring_2_force_change_size = B1_spring_2_force_change > 0 ? B1_spring_2_force_change :
-        nothing - B1_spring_2_force_change;
-    const scalar B1_spring_2_stiffness_change = K1_ - B1_spring_2_carried_stiffness_;
-    const scalar B1_spring_2_stiffness_change_size = B1_spring_2_stiffness_change > 0 ?
-        B1_spring_2_stiffness_change : nothing - B1_spring_2_stiffness_change;
-    const scalar B1_spring_2_is_changed = B1_spring_2_force_change_size + B1_spring_2_stiffness_change_size;
-    // z = F/k
-    B1_spring_2_elongation_ = B1_spring_2_is_changed > 0 ? (K1_ > 0 ? B1_spring_2_force_after / K1_ : nothing) :
-        B1_spring_2_elongation_;
-    B1_spring_2_carried_stiffness_ = K1_;
-    // π
-    held_force_ = nothing + K3 * (K3_elongation_ - K3_offset_) +
-        (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
-        (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
+    step_stiffness_ = K3 + K1_ * B1_spring_2_kept_ + K2 * damper_3_K2_kept_;
     const scalar B1_damper_3_sum_ = B1_damper_3 + B2_;
     // b follows B1 + damper_3
     steady_brake_ = B1_damper_3_sum_;
     // b∞ − b
     velocity_gain_ = no_damping - steady_brake_;
+    const scalar K3_force_before = K3 * (K3_elongation_ - K3_offset_);
+    const scalar B1_spring_2_force_before = B1_spring_2_carried_stiffness_ * B1_spring_2_elongation_;
+    // F, or F √(k′/k) of a softer spring
+    const scalar B1_spring_2_force_kept = B1_spring_2_carried_stiffness_ - K1_ > 0 ? (K1_ > 0 ?
+        B1_spring_2_force_before *
+        dashpot::square_root(K1_ / B1_spring_2_carried_stiffness_) : zero) : B1_spring_2_force_before;
+    const scalar B1_spring_2_energy_before = B1_spring_2_carried_stiffness_ > 0 ? B1_spring_2_force_before *
+        (B1_spring_2_force_before / B1_spring_2_carried_stiffness_) / two : zero;
+    const scalar B1_spring_2_energy_after = K1_ > 0 ? B1_spring_2_force_before *
+        (B1_spring_2_force_before / K1_) / two : zero;
+    tank_ = tank_ + (K1_ - B1_spring_2_carried_stiffness_ > 0 ?
+        B1_spring_2_energy_before - B1_spring_2_energy_after : zero) + (K1_ > 0 ? zero : B1_spring_2_energy_before);
+    const scalar B1_spring_2_energy_held = K1_ > 0 ? B1_spring_2_force_kept *
+        (B1_spring_2_force_kept / K1_) / two : zero;
+    const scalar B1_spring_2_energy_missing = B1_spring_2_energy_after - B1_spring_2_energy_held;
+    const scalar B1_spring_2_force_most = dashpot::square_root(two * K1_ * (B1_spring_2_energy_held + tank_));
+    const scalar B1_spring_2_force_short = B1_spring_2_force_kept - B1_spring_2_force_before;
+    const scalar B1_spring_2_force_short_size = B1_spring_2_force_short > 0 ? B1_spring_2_force_short :
+        zero - B1_spring_2_force_short;
+    const scalar B1_spring_2_falls_short = K1_ > 0 ? B1_spring_2_force_short_size : zero;
+    const scalar B1_spring_2_energy_unpaid = B1_spring_2_energy_missing - tank_;
+    // F, as far as the tank pays
+    const scalar B1_spring_2_force_after = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ?
+        (B1_spring_2_force_before > 0 ? B1_spring_2_force_most : minus_one *
+        B1_spring_2_force_most) : B1_spring_2_force_before) : B1_spring_2_force_kept;
+    tank_ = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ? zero :
+        tank_ - B1_spring_2_energy_missing) : tank_;
+    const scalar missing_force = K3_force_before - K3_force_before +
+        (B1_spring_2_force_before - B1_spring_2_force_after);
+    const scalar energy_at_hand = (K3 > 0 ? K3_force_before * (K3_force_before / K3) / two : zero) + tank_;
+    const scalar most_force = dashpot::square_root(two * K3 * energy_at_hand);
+    const scalar wanted_force = K3_force_before + missing_force;
+    const scalar least_force = minus_one * most_force;
+    const scalar made_up_force = wanted_force - most_force > 0 ? most_force : (least_force - wanted_force > 0 ?
+        least_force : wanted_force);
+    const scalar missing_size = missing_force > 0 ? missing_force : zero - missing_force;
+    const scalar is_missing = K3 > 0 ? missing_size : zero;
+    const scalar energy_left = energy_at_hand - (K3 > 0 ? made_up_force * (made_up_force / K3) / two : zero);
+    // F of the static spring
+    const scalar K3_force_made_up = is_missing > 0 ? made_up_force : K3_force_before;
+    tank_ = is_missing > 0 ? (energy_left > 0 ? energy_left : zero) : tank_;
+    const scalar K3_force_change = K3_force_made_up - K3_force_before;
+    const scalar K3_force_change_size = K3_force_change > 0 ? K3_force_change : zero - K3_force_change;
+    const scalar K3_offset_exact = K3 > 0 ? K3_elongation_ - K3_force_made_up / K3 : zero;
+    const scalar K3_offset_seen = K3_elongation_ + K3_offset_exact * quarter - K3_elongation_;
+    const scalar K3_offset_seen_size = K3_offset_seen > 0 ? K3_offset_seen : zero - K3_offset_seen;
+    // r = z − F/k
+    K3_offset_ = K3_force_change_size > 0 ? (K3_offset_seen_size > 0 ? K3_offset_exact : zero) : K3_offset_;
+    const scalar B1_spring_2_force_change = B1_spring_2_force_after - B1_spring_2_force_before;
+    const scalar B1_spring_2_force_change_size = B1_spring_2_force_change > 0 ? B1_spring_2_force_change :
+        zero - B1_spring_2_force_change;
+    const scalar B1_spring_2_stiffness_change = K1_ - B1_spring_2_carried_stiffness_;
+    const scalar B1_spring_2_stiffness_change_size = B1_spring_2_stiffness_change > 0 ?
+        B1_spring_2_stiffness_change : zero - B1_spring_2_stiffness_change;
+    const scalar B1_spring_2_is_changed = B1_spring_2_force_change_size + B1_spring_2_stiffness_change_size;
+    // z = F/k
+    B1_spring_2_elongation_ = B1_spring_2_is_changed > 0 ? (K1_ > 0 ? B1_spring_2_force_after / K1_ : zero) :
+        B1_spring_2_elongation_;
+    B1_spring_2_carried_stiffness_ = K1_;
+    // π
+    held_force_ = K3 * (K3_elongation_ - K3_offset_) +
+        (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
+        (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
     put(state, 0, held_force_);
     put(state, 1, K1_);
     put(state, 2, B2_);
@@ -253,9 +252,9 @@ class second_order_maxwell_tunable_batch {
     const vector K3_offset_ = vector::at(state, 16 * block);
     const vector tank_ = vector::at(state, 17 * block);
     // V + T: in the springs, and what changes of parameters have set free
-    const vector stored = tank_ + K3 * (K3_elongation_ - K3_offset_) * (K3_elongation_ - K3_offset_) * half_of +
-        K1_ * B1_spring_2_elongation_ * B1_spring_2_elongation_ * half_of +
-        K2 * damper_3_K2_elongation_ * damper_3_K2_elongation_ * half_of;
+    const vector stored = tank_ + K3 * (K3_elongation_ - K3_offset_) * (K3_elongation_ - K3_offset_) * half +
+        K1_ * B1_spring_2_elongation_ * B1_spring_2_elongation_ * half +
+        K2 * damper_3_K2_elongation_ * damper_3_K2_elongation_ * half;
     return stored[0];
   }
 
@@ -323,13 +322,13 @@ class second_order_maxwell_tunable_batch {
       K3_elongation_ = sampled_position_;
       const vector K3_offset_after = vector::flush_below(threshold, retention * K3_offset_);
       const vector K3_offset_cost = K3 * (K3_offset_ - K3_offset_after) * (K3_elongation_ - K3_offset_after +
-          (K3_elongation_ - K3_offset_)) * half_of;
+          (K3_elongation_ - K3_offset_)) * half;
       const vector K3_offset_unpaid = K3_offset_cost - tank_;
       // r goes home where the tank pays
       K3_offset_ = vector::where(K3_offset_unpaid, K3_offset_, K3_offset_after);
       tank_ = vector::where(K3_offset_unpaid, tank_, tank_ - K3_offset_cost);
       // π
-      held_force_ = nothing + K3 * (K3_elongation_ - K3_offset_) +
+      held_force_ = K3 * (K3_elongation_ - K3_offset_) +
           (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
           (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
       // u₋ = u
@@ -361,12 +360,12 @@ class second_order_maxwell_tunable_batch {
   static constexpr scalar period = 0.001;  // T [s]
   static constexpr scalar no_damping = 0.0;  // none [N·s/m]
   static constexpr scalar B1_damper_3 = 5.0;  // of what does not change [N s/m]
-  static constexpr scalar nothing = 0.0;  // zero [1]
+  static constexpr scalar zero = 0.0;  // nothing [1]
   static constexpr scalar two = 2.0;  // two [1]
-  static constexpr scalar reversed = -1.0;  // minus one [1]
+  static constexpr scalar minus_one = -1.0;  // minus one [1]
   static constexpr scalar quarter = 0.25;  // a quarter [1]
   static constexpr scalar retention = 0.9900498337491681;  // what an offset keeps in a sample [1]
-  static constexpr scalar half_of = 0.5;  // a half [1]
+  static constexpr scalar half = 0.5;  // a half [1]
   static constexpr dashpot::tunable_range<scalar> tunables[2] = {
       {12.0, 0.0, 100.0},  // K1 [N/m]
       {6.0, 0.5, 20.0},  // B2 [N s/m]

@@ -15,16 +15,17 @@
 //   command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 1.1e-14 of the sum of the force's terms
+//   falls; rounding adds at most 5.4e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows damper_3
-// cost of output(): at most 82 additions, multiplications and divisions
-// cost of update(): at most 21 additions and multiplications; 1 numbers are kept between samples
-// cost of set(): at most 24 additions, multiplications and divisions for the constants, 384 for the springs'
-//   energy
+// cost of output(): 4 additions, 2 multiplications, 0 guards against subnormal numbers
+//   and at most 41 additions, multiplications and divisions for the coupled slips
+// cost of update(): 1 additions, 1 multiplications, 1 guards against subnormal numbers; 9 numbers are kept between
+//   samples
+// cost of set(): 7 operations for the constants, 53 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -121,6 +122,18 @@ static inline double friction_tunable_square_root(double x) {
   else if (rest <= -nearest) root = root - 2.220446049250313e-16;
   return scale * root;
 # endif
+}
+
+typedef struct friction_tunable_range_of_parameter {
+  double min;
+  double max;
+} friction_tunable_range_of_parameter;
+
+// `value` becomes what is wanted of it, within its range; what is no number at all leaves it as it is. Returns 1 where
+// that is not what was wanted, else 0.
+static inline unsigned friction_tunable_take_value(const friction_tunable_range_of_parameter *range, double wanted, double *value) {
+  if (wanted == wanted) *value = (wanted < range->min) ? range->min : ((wanted > range->max) ? range->max : wanted);
+  return (*value == wanted) ? 0u : 1u;
 }
 
 // One step of slips that are coupled through a tree of linear blocks: exact, with a bound on the work, without
@@ -586,197 +599,11 @@ static inline double friction_tunable_tree_step(const friction_tunable_tree *tre
   return friction_tunable_force_at(tree, change);
 }
 
-// The feedthrough damping b∞ of coupled slips for one pattern of those that give way: of a slip that holds rigid, of
-// one that slides none. In parallel any rigid part makes all rigid, else dampings add up; in series one that slides
-// makes all slide, rigid parts drop out, and the rest is 1/Σ 1/b.
-static inline void friction_tunable_find_regime_in_parallel(const friction_tunable_tree *tree, int k) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  friction_tunable_part_state *whole = &tree->parts[k];
-  int is_rigid = 0, is_affine = 0;
-  double sum = 0;
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i) {
-    is_rigid = is_rigid || (tree->parts[i].hold == friction_tunable_rigid);
-    if (tree->parts[i].hold != friction_tunable_affine) continue;
-    is_affine = 1;
-    sum += tree->parts[i].stiffness;
-  }
-  whole->hold = is_rigid ? friction_tunable_rigid : (is_affine ? friction_tunable_affine : friction_tunable_constant);
-  whole->stiffness = is_rigid ? 0 : sum;
-}
-
-static inline void friction_tunable_find_regime_in_series(const friction_tunable_tree *tree, int k) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  friction_tunable_part_state *whole = &tree->parts[k];
-  int slides = 0, is_affine = 0, is_free = 0;
-  double inverse = 0;
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i) {
-    const friction_tunable_part_state *part = &tree->parts[i];
-    slides = slides || (part->hold == friction_tunable_constant);
-    if (part->hold != friction_tunable_affine) continue;
-    is_affine = 1;
-    is_free = is_free || !(part->stiffness > 0);
-    if (part->stiffness > 0) inverse += 1 / part->stiffness;
-  }
-  whole->hold = slides ? friction_tunable_constant : (is_affine ? friction_tunable_affine : friction_tunable_rigid);
-  whole->stiffness = (slides || !is_affine || is_free) ? 0 : (1 / inverse);
-}
-
-// In: b∞ of every block by its place [N·s/m], for every slip 0 where it holds. What is in the tree's parts is lost.
-static inline double friction_tunable_regime_feedthrough(const friction_tunable_tree *tree, const double *feedthrough, const int *sign) {
-  for (int k = tree->count - 1; k >= 0; --k) {
-    const friction_tunable_node *node = &tree->nodes[k];
-    friction_tunable_part_state *part = &tree->parts[k];
-    if (node->kind == friction_tunable_parallel) friction_tunable_find_regime_in_parallel(tree, k);
-    if (node->kind == friction_tunable_series) friction_tunable_find_regime_in_series(tree, k);
-    if (node->kind == friction_tunable_slip) part->hold = (sign[node->place] == 0) ? friction_tunable_rigid : friction_tunable_constant;
-    if (node->kind == friction_tunable_block) part->hold = friction_tunable_affine;
-    if (node->child_count == 0) part->stiffness = (node->kind == friction_tunable_block) ? feedthrough[node->place] : 0;
-  }
-  return (tree->parts[0].hold == friction_tunable_affine) ? tree->parts[0].stiffness : 0;
-}
-
-enum {
-  friction_tunable_spring_count = 1,
-  friction_tunable_springs = 1,
-  friction_tunable_part_count = 2,
-  friction_tunable_block_count = 2,
-  friction_tunable_blocks_room = 2,
-  friction_tunable_mesh_nodes = 1,
-  friction_tunable_slips = 1,
-  friction_tunable_coupling_count = 1,
-  friction_tunable_tree_nodes_room = 3,
-  friction_tunable_corners = 8,
-  friction_tunable_merged = 4,
-  friction_tunable_graph_count = 0,
-  friction_tunable_ends_room = 1,
-  friction_tunable_static_spring = -1
-};
-
-typedef struct friction_tunable_range_of_parameter {
-  double value;  // to begin with
-  double min;
-  double max;
-} friction_tunable_range_of_parameter;
-
-// What a part of a block is. Parts stand in parallel.
-enum {
-  friction_tunable_spring,      // p = k (z − r)
-  friction_tunable_damper,      // p = B ż
-  friction_tunable_relaxation,  // a spring and a damper in series
-  friction_tunable_mesh         // springs and dampers between inner nodes
-};
-
-enum { friction_tunable_none = -1, friction_tunable_mesh_port = -1, friction_tunable_mesh_held = -2 };  // the ends of a mesh, in the place of a node
-
-typedef struct friction_tunable_part {
-  int kind;
-  int spring;      // into the springs; of a mesh none
-  int damping;     // number of a damper or relaxation [N·s/m]
-  int share;       // number φ of a relaxation: what a displacement within a sample leaves in its spring [1]
-  int loss;        // number α of a relaxation: what is lost in a sample [1]
-  int first_node;  // of a mesh, as are those below
-  int node_count;
-  int first_edge;
-  int edge_count;
-  int is_loose;  // a spring in series with a slip, so that its rest length means nothing
-} friction_tunable_part;
-
-typedef struct friction_tunable_block_parts {
-  int first_part;
-  int part_count;
-  double least_stiffness;  // behind a slip no softer [N/m]
-} friction_tunable_block_parts;
-
-// One spring across a change of its stiffness.
-typedef struct friction_tunable_spring_change {
-  double stiffness;      // before [N/m]
-  double new_stiffness;  // after
-  double force;          // before [N]
-  double new_force;      // after
-} friction_tunable_spring_change;
-
-// Yield force of a slip: the least of numbers[cuts[first]] …, one number for each way to cut it through.
-typedef struct friction_tunable_yield {
-  int first_cut;
-  int cut_count;
-  double least;  // no less, whatever the numbers are [N]
-} friction_tunable_yield;
-
-// Slips that are stepped together: nodes of the tree, blocks in the order of their places, slips likewise.
-typedef struct friction_tunable_coupling {
-  int first_node;
-  int node_count;
-  int first_block;
-  int first_slip;
-  int first_corner;
-} friction_tunable_coupling;
-
-// Of slips and the brake.
-typedef struct friction_tunable_slip_brake {
-  double now;      // b∞/h behind slips in this sample, as far as the brake makes it [N/m]
-  double damping;  // b of it, on its way there with the coil [N·s/m]
-  double wanted;   // and where it is going [N·s/m]
-} friction_tunable_slip_brake;
-
-static const double friction_tunable_rate = 1000.0;  // 1/h [Hz]
-static const double friction_tunable_retention = 0.9900498337491681;  // what an offset keeps in a sample where the tank pays [1]
-static const double friction_tunable_threshold = 6.223015277861142e-61;  // magnitudes of states below are zero
-static const double friction_tunable_surface_at = 0.0;  // where the surface lies unloaded [m]
-static const double friction_tunable_encoder_step = 0.0;  // how far the gap may open before the command lets go [m]
-static const double friction_tunable_hysteresis = 0.0;  // before a slide has ended for the command [m]
-static const double friction_tunable_coil_share = 1.0;  // of what is missing from √b, in a sample [1]
-static const double friction_tunable_motor_limit = 0.0;  // of its force; 0: none [N]
-static const double friction_tunable_motor_step = 0.0;  // of its change in a period; 0: none [N]
 static const friction_tunable_range_of_parameter friction_tunable_ranges[3] = {
-    {1.5, 0.0, 5.0},  // yield [N]
-    {2000.0, 200.0, 5000.0},  // presliding [N/m]
-    {12.0, 0.0, 40.0},  // drag [N s/m]
+    {0.0, 5.0},  // yield [N]
+    {200.0, 5000.0},  // presliding [N/m]
+    {0.0, 40.0},  // drag [N s/m]
 };
-static const int friction_tunable_spring_numbers[1] = {1};
-static const friction_tunable_part friction_tunable_parts[2] = {
-    {friction_tunable_damper, -1, 0, -1, -1, 0, 0, 0, 0, 0},
-    {friction_tunable_spring, 0, -1, -1, -1, 0, 0, 0, 0, 1},
-};
-static const friction_tunable_block_parts friction_tunable_block_table[2] = {
-    {0, 1, 0.0},
-    {1, 1, 0.0002980232238769531},
-};
-static const int friction_tunable_cuts[1] = {2};
-static const friction_tunable_yield friction_tunable_yields[1] = {
-    {0, 1, 2.980232238769531e-07},
-};
-static const friction_tunable_coupling friction_tunable_couplings[1] = {
-    {0, 3, 1, 0, 0},
-};
-static const friction_tunable_node friction_tunable_tree_nodes[3] = {
-    {friction_tunable_series, 1, 2, 1, 0, 0, 0, 0, 0},
-    {friction_tunable_block, 0, 0, 0, 0, 0, 0, 0, 0},
-    {friction_tunable_slip, 0, 0, 1, 0, 4, 0, 0, 0},
-};
-
-// What a change of parameters works on: the springs, what stands between them, and the slips.
-typedef struct friction_tunable_tunables {
-  double elongation[friction_tunable_springs];     // z [m]
-  double offset[friction_tunable_springs];         // r, how far the rest length is from home [m]
-  double tank;                        // energy that changes have set free [J]
-  int is_owing;                       // some offset is not home
-  int is_shed;                        // and what was shed is the reason
-  double stiffness[friction_tunable_springs];      // what follows from the values: k [N/m]
-  double share[friction_tunable_springs];          // φ of a relaxation [1]
-  double loss[friction_tunable_springs];           // α of a relaxation [1]
-  double block_stiffness[friction_tunable_blocks_room];    // g of every block [N/m]
-  double block_held[friction_tunable_blocks_room];         // π [N]
-  double block_elongation[friction_tunable_blocks_room];   // δ in this sample [m]
-  double block_feedthrough[friction_tunable_blocks_room];  // b∞; 0 of block 0, whose is the law's own [N·s/m]
-  int sign[friction_tunable_slips + 1], last_sign[friction_tunable_slips + 1];
-  friction_tunable_node nodes[friction_tunable_tree_nodes_room];
-  friction_tunable_part_state part_states[friction_tunable_tree_nodes_room];
-  friction_tunable_corner corners[friction_tunable_corners], merged[friction_tunable_merged];
-  int commanded[friction_tunable_slips];
-  int slid[friction_tunable_slips], slides_now[friction_tunable_slips];
-  double slid_at[friction_tunable_slips], slid_at_now[friction_tunable_slips];  // where the tool was when a slip last slid [m]
-  double root, root_now;                              // √b
-} friction_tunable_tunables;
 
 // What may change while the law runs, to begin with as in the network's file.
 typedef struct friction_tunable_parameters {
@@ -793,13 +620,18 @@ typedef struct friction_tunable {
   double step_stiffness;  // what springs answer in a sample [N/m]
   double steady_brake;  // b of what no slip changes [N·s/m]
   double velocity_gain;  // b∞ − b [N·s/m]
-  double brake_left;  // what the brake has left for slips [N·s/m]
   double last_position;  // u of the sample before [m]
   double last_brake;  // b of the sample before [N·s/m]
   double sampled_position;  // port displacement u, at this sample [m]
   double sampled_position_change;  // Δu since the sample before, at this sample [m]
-  double resting_brake;  // b of what is behind slips that hold [N·s/m]
-  friction_tunable_tunables law;  // springs, slips and tank
+  double spring_2_elongation;  // z [m]
+  double spring_2_carried_stiffness;  // k for which the force is what it is [N/m]
+  double spring_2_held;  // π, what the block holds [N]
+  double tank;  // T, set free by changes of parameters [J]
+  double friction_yield;  // Y [N]
+  double spring_2_answer;  // g of a part whose slips give way [N/m]
+  double spring_2_give;  // 1/g of it [m/N]
+  double sampled_spring_2_stretched;  // δ of the block, at this sample [m]
   int sampled;  // 1 while a finite sample waits for friction_tunable_update()
 } friction_tunable;
 
@@ -847,391 +679,37 @@ static inline double friction_tunable_parameter_max(int i) {
   return 0;
 }
 
-// A spring's force is k (z − r). A change of stiffness leaves the forces alone and moves the offsets r, as far as energy
-// allows; with every sample the offsets then go home by a part of the way, where the tank pays for it.
-static inline double friction_tunable_spring_force(const friction_tunable_tunables *self, int spring) {
-  return self->stiffness[spring] * (self->elongation[spring] - self->offset[spring]);
-}
-
-static inline void friction_tunable_stretch_spring(friction_tunable_tunables *self, int spring, double change) {
-  self->elongation[spring] = dashpot_flush_below(friction_tunable_threshold, self->elongation[spring] + change);
-}
-
-// F²/2k; nothing where there is no spring.
-static inline double friction_tunable_spring_energy(double force, double stiffness) {
-  return (stiffness > 0) ? (force * (force / stiffness) / 2) : 0;
-}
-
-// A stiffer spring keeps its force, and the tank takes what that sets free. A softer one keeps what its own energy can
-// hold, F √(k′/k), and then more, up to F, as far as the tank pays; the springs in turn. So V + T, V = Σ F²/2k, is the
-// same before and after. Returns what is left in the tank [J].
-static inline double friction_tunable_carry_over(friction_tunable_spring_change *springs, double tank) {
-  for (int i = 0; i < friction_tunable_spring_count; ++i) {
-    friction_tunable_spring_change *s = &springs[i];
-    if (s->new_stiffness >= s->stiffness) s->new_force = s->force;
-    else if (s->new_stiffness > 0) s->new_force = s->force * friction_tunable_square_root(s->new_stiffness / s->stiffness);
-    else s->new_force = 0;
-    // Only a stiffer spring sets energy free: for the others the two energies are equal but for rounding.
-    if (s->new_stiffness > s->stiffness)
-      tank += friction_tunable_spring_energy(s->force, s->stiffness) - friction_tunable_spring_energy(s->force, s->new_stiffness);
-    if (s->new_stiffness <= 0) tank += friction_tunable_spring_energy(s->force, s->stiffness);
-  }
-  for (int i = 0; i < friction_tunable_spring_count; ++i) {
-    friction_tunable_spring_change *s = &springs[i];
-    if ((s->new_stiffness > 0) && (s->new_force != s->force)) {
-      const double held = friction_tunable_spring_energy(s->new_force, s->new_stiffness);
-      const double cost = friction_tunable_spring_energy(s->force, s->new_stiffness) - held;
-      const int is_paid = cost <= tank;
-      const double most = friction_tunable_square_root(2 * s->new_stiffness * (held + tank));
-      s->new_force = is_paid ? s->force : ((s->force > 0) ? most : -most);
-      tank = is_paid ? (tank - cost) : 0;
-    }
-  }
-  return tank;
-}
-
-static inline int friction_tunable_is_changed(const friction_tunable_spring_change *change) {
-  return (change->new_stiffness != change->stiffness) || (change->new_force != change->force);
-}
-
-// What is next to a spring makes room for another elongation.
-static inline void friction_tunable_move_end(friction_tunable_tunables *self, int spring, const friction_tunable_spring_change *change) {
-  if (!friction_tunable_is_changed(change)) return;
-  self->elongation[spring] = (change->new_stiffness > 0) ? (change->new_force / change->new_stiffness) : 0;
-}
-
-// r = z − F/k; what is no more than rounding of z is none.
-static inline void friction_tunable_move_offset(friction_tunable_tunables *self, int spring, const friction_tunable_spring_change *change) {
-  if (!friction_tunable_is_changed(change)) return;
-  const double z = self->elongation[spring];
-  const double offset = (change->new_stiffness > 0) ? (z - change->new_force / change->new_stiffness) : 0;
-  self->offset[spring] = ((z + offset / 4) == z) ? 0 : offset;
-  self->is_owing = self->is_owing || (self->offset[spring] != 0);
-}
-
-// Once a sample.
-static inline void friction_tunable_bring_offsets_home(friction_tunable_tunables *self) {
-  if (!self->is_owing) return;
-  self->is_owing = 0;
-  for (int i = 0; i < friction_tunable_spring_count; ++i) {
-    const double before = self->offset[i], after = dashpot_flush_below(friction_tunable_threshold, friction_tunable_retention * before);
-    if (before == 0) continue;
-    const double z = self->elongation[i];
-    const double cost = self->stiffness[i] * (before - after) * ((z - after) + (z - before)) * 0.5;
-    if (cost <= self->tank) {
-      self->tank -= cost;
-      self->offset[i] = after;
-    }
-    self->is_owing = self->is_owing || (self->offset[i] != 0);
-  }
-  self->is_shed = self->is_shed && self->is_owing;
-}
-
-// b∞ [N·s/m]
-static inline double friction_tunable_part_feedthrough(friction_tunable_tunables *self, const friction_tunable_part *part, const double *numbers) {
-  if (part->kind == friction_tunable_damper) return numbers[part->damping];
-  (void)self;
-  return 0;
-}
-
-// g = dp/dδ over a sample [N/m]. Leaves a mesh as the steps need it.
-static inline double friction_tunable_part_stiffness(friction_tunable_tunables *self, const friction_tunable_part *part, const double *numbers) {
-  if (part->kind == friction_tunable_spring) return self->stiffness[part->spring];
-  if (part->kind == friction_tunable_damper) return numbers[part->damping] * friction_tunable_rate;
-  return self->stiffness[part->spring] * self->share[part->spring];
-}
-
-// π, and what a mesh needs to be spread.
-static inline double friction_tunable_held_by_part(friction_tunable_tunables *self, const friction_tunable_part *part) {
-  if (part->kind == friction_tunable_damper) return 0;
-  if (part->kind == friction_tunable_spring) return friction_tunable_spring_force(self, part->spring);
-  return friction_tunable_spring_force(self, part->spring) -
-         self->stiffness[part->spring] * (self->loss[part->spring] * self->elongation[part->spring]);
-}
-
-static inline void friction_tunable_advance(friction_tunable_tunables *self, const friction_tunable_part *part, double change) {
-  if (part->kind == friction_tunable_damper) return;
-  if (part->kind == friction_tunable_spring) friction_tunable_stretch_spring(self, part->spring, change);
-  else
-    friction_tunable_stretch_spring(self, part->spring,
-                       self->share[part->spring] * change - self->loss[part->spring] * self->elongation[part->spring]);
-}
-
-// In a relaxation the damper makes room, of a loose spring the slip; of other springs the offset does.
-static inline void friction_tunable_take_forces(friction_tunable_tunables *self, const friction_tunable_part *part, const friction_tunable_spring_change *changes) {
-  if ((part->kind == friction_tunable_spring) && !part->is_loose) friction_tunable_move_offset(self, part->spring, &changes[part->spring]);
-  else if (part->spring != friction_tunable_none) friction_tunable_move_end(self, part->spring, &changes[part->spring]);
-}
-
-static inline double friction_tunable_yield_force(const friction_tunable_yield *yield, const double *numbers) {
-  double weakest = numbers[friction_tunable_cuts[yield->first_cut]];
-  for (int i = yield->first_cut + 1; i < (yield->first_cut + yield->cut_count); ++i)
-    weakest = (numbers[friction_tunable_cuts[i]] < weakest) ? numbers[friction_tunable_cuts[i]] : weakest;
-  return (weakest > yield->least) ? weakest : yield->least;
-}
-
-// Curves of slips through parts that give way without end would lose their digits.
-static inline double friction_tunable_bounded_stiffness(const friction_tunable_tunables *self, int block) {
-  const double least = friction_tunable_block_table[block].least_stiffness;
-  return (self->block_stiffness[block] > least) ? self->block_stiffness[block] : least;
-}
-
-static inline friction_tunable_tree friction_tunable_tree_of(friction_tunable_tunables *self, const friction_tunable_coupling *c) {
-  const friction_tunable_tree tree = {self->nodes + c->first_node, c->node_count, self->part_states + c->first_node,
-                         self->corners + c->first_corner, self->merged};
-  return tree;
-}
-
-// dp/dδ with every slip giving way: in parallel the sum, in series the inverse of Σ 1/g.
-static inline double friction_tunable_end_stiffness(const friction_tunable_tunables *self, const friction_tunable_coupling *c, const friction_tunable_node *node) {
-  double sum = 0, compliance = 0;
-  int is_flat = 0;
-  if (node->kind == friction_tunable_slip) return 0;
-  if (node->kind == friction_tunable_block) return friction_tunable_bounded_stiffness(self, c->first_block + node->place);
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i) {
-    const friction_tunable_node *child = &self->nodes[c->first_node + i];
-    sum += child->stiffness;
-    compliance += child->compliance;
-    is_flat = is_flat || (child->stiffness == 0);
-  }
-  return (node->kind == friction_tunable_parallel) ? sum : (is_flat ? 0 : (1 / compliance));
-}
-
-static inline void friction_tunable_tune_tree(friction_tunable_tunables *self, const friction_tunable_coupling *c, const double *numbers) {
-  for (int k = c->first_node + c->node_count - 1; k >= c->first_node; --k) {
-    friction_tunable_node *node = &self->nodes[k];
-    *node = friction_tunable_tree_nodes[k];
-    if (node->kind == friction_tunable_slip) node->yield = friction_tunable_yield_force(&friction_tunable_yields[c->first_slip + node->place], numbers);
-    node->stiffness = friction_tunable_end_stiffness(self, c, node);
-    node->compliance = (node->stiffness > 0) ? (1 / node->stiffness) : 0;
-  }
-}
-
-static inline double friction_tunable_step_slips(friction_tunable_tunables *self, double change) {
-  double sum = 0;
-  for (int i = 0; i < friction_tunable_coupling_count; ++i) {
-    const friction_tunable_coupling *c = &friction_tunable_couplings[i];
-    const friction_tunable_tree tree = friction_tunable_tree_of(self, c);
-    sum += friction_tunable_tree_step(&tree, change, self->block_held + c->first_block, self->block_elongation + c->first_block,
-                         self->sign + c->first_slip);
-  }
-  return sum;
-}
-
-// b∞ of all that is behind slips, for one pattern of those that give way [N·s/m].
-static inline double friction_tunable_damping_of(friction_tunable_tunables *self, const int *sign) {
-  double sum = 0;
-  for (int i = 0; i < friction_tunable_coupling_count; ++i) {
-    const friction_tunable_coupling *c = &friction_tunable_couplings[i];
-    const friction_tunable_tree tree = friction_tunable_tree_of(self, c);
-    sum += friction_tunable_regime_feedthrough(&tree, self->block_feedthrough + c->first_block, sign + c->first_slip);
-  }
-  return sum;
-}
-
-static inline double friction_tunable_least(double one, double other) { return (one < other) ? one : other; }
-
-// After a reset: what slips leave to a brake that has `left` for them [N·s/m].
-static inline double friction_tunable_tunable_resting_brake(friction_tunable_tunables *self, double left) {
-  for (int i = 0; i < friction_tunable_slips; ++i) {
-    self->commanded[i] = 0;
-    self->slid[i] = 0;
-    self->slid_at[i] = 0;
-  }
-  const double damping = friction_tunable_least(friction_tunable_damping_of(self, self->commanded), left);
-  self->root = friction_tunable_square_root(damping);
-  return damping;
-}
-
-// Which slips slide for the command: a slide ends where the tool has gone the hysteresis, to either side, and the slip
-// not with it.
-static inline void friction_tunable_follow_slides(friction_tunable_tunables *self, double position) {
-  for (int i = 0; i < friction_tunable_slips; ++i) {
-    const double way = position - self->slid_at[i];
-    self->slides_now[i] = (self->sign[i] != 0) || (self->slid[i] && ((friction_tunable_hysteresis * friction_tunable_hysteresis - way * way) > 0));
-    self->slid_at_now[i] = (self->sign[i] != 0) ? position : self->slid_at[i];
-    self->commanded[i] = self->slides_now[i] ? 1 : 0;
-  }
-}
-
-// b on its way to what the regime would have: √b ← √b + κ (√b_regime − √b).
-static inline double friction_tunable_reached_damping(friction_tunable_tunables *self, double wanted) {
-  if (!(friction_tunable_coil_share < 1)) return wanted;
-  self->root_now = self->root + friction_tunable_coil_share * (friction_tunable_square_root(wanted) - self->root);
-  return self->root_now * self->root_now;
-}
-
-// What slips leave to a brake that has `left` for them, after their step, by where the tool is.
-static inline friction_tunable_slip_brake friction_tunable_tunable_slip_brake(friction_tunable_tunables *self, double position, double left) {
-  const double now = friction_tunable_least(friction_tunable_damping_of(self, self->sign), left);
-  friction_tunable_follow_slides(self, position);
-  const double wanted = friction_tunable_least(friction_tunable_damping_of(self, self->commanded), left);
-  const friction_tunable_slip_brake found = {now * friction_tunable_rate, friction_tunable_reached_damping(self, wanted), wanted};
-  return found;
-}
-
-static inline void friction_tunable_keep_slips(friction_tunable_tunables *self) {
-  for (int i = 0; i <= friction_tunable_slips; ++i) self->last_sign[i] = self->sign[i];
-  for (int i = 0; i < friction_tunable_slips; ++i) {
-    self->slid[i] = self->slides_now[i];
-    self->slid_at[i] = self->slid_at_now[i];
-  }
-  self->root = self->root_now;
-}
-
-// g and b∞ of every block. Returns g of all that joins tool and ground without a slip but for dampers and meshes.
-static inline double friction_tunable_find_curves(friction_tunable_tunables *self, const double *numbers) {
-  double springs = 0;
-  for (int i = 0; i < friction_tunable_block_count; ++i) {
-    self->block_feedthrough[i] = self->block_stiffness[i] = 0;
-    for (int k = 0; k < friction_tunable_block_table[i].part_count; ++k) {
-      const friction_tunable_part *part = &friction_tunable_parts[friction_tunable_block_table[i].first_part + k];
-      const double through = friction_tunable_part_feedthrough(self, part, numbers);
-      const double stiffness = friction_tunable_part_stiffness(self, part, numbers);
-      self->block_feedthrough[i] += through;
-      self->block_stiffness[i] += stiffness;
-      if ((i > 0) || (part->kind == friction_tunable_damper)) continue;
-      springs += stiffness;
-    }
-  }
-  // Of what no slip changes the brake has been told already.
-  self->block_feedthrough[0] = 0;
-  return springs;
-}
-
-// p = g δ + π: π of every block, and what its meshes need to be spread.
-static inline void friction_tunable_find_held(friction_tunable_tunables *self) {
-  for (int i = 0; i < friction_tunable_block_count; ++i) {
-    double held = 0;
-    for (int k = 0; k < friction_tunable_block_table[i].part_count; ++k)
-      held += friction_tunable_held_by_part(self, &friction_tunable_parts[friction_tunable_block_table[i].first_part + k]);
-    self->block_held[i] = held;
-  }
-}
-
-// Everything but the parameters' values and what follows from them.
-static inline void friction_tunable_rest(friction_tunable_tunables *self) {
-  for (int i = 0; i < friction_tunable_springs; ++i) self->elongation[i] = self->offset[i] = 0;
-  for (int i = 0; i < friction_tunable_blocks_room; ++i) self->block_elongation[i] = 0;
-  self->tank = 0;
-  self->is_owing = self->is_shed = 0;
-  for (int i = 0; i <= friction_tunable_slips; ++i) self->last_sign[i] = 0;
-}
-
-// At rest at `position`. Returns π of what joins tool and ground without a slip [N].
-static inline double friction_tunable_tunable_reset(friction_tunable_tunables *self, double position) {
-  friction_tunable_rest(self);
-  friction_tunable_find_held(self);
-  (void)position;
-  return self->block_held[0];
-}
-
-// π of what joins tool and ground without a slip [N].
-static inline double friction_tunable_tunable_held(const friction_tunable_tunables *self) { return self->block_held[0]; }
-
-// Of all slips, by the tool's displacement in this sample: the force that opposes it [N].
-static inline double friction_tunable_tunable_slip(friction_tunable_tunables *self, double change) { return friction_tunable_step_slips(self, change); }
-
-// Takes the states over a sample, by the change of the tool, or of the surface that it pushes, and to its position.
-// Returns π of what joins tool and ground without a slip [N].
-static inline double friction_tunable_tunable_update(friction_tunable_tunables *self, double change, double position) {
-  self->block_elongation[0] = change;
-  for (int i = 0; i < friction_tunable_block_count; ++i)
-    for (int k = 0; k < friction_tunable_block_table[i].part_count; ++k)
-      friction_tunable_advance(self, &friction_tunable_parts[friction_tunable_block_table[i].first_part + k], self->block_elongation[i]);
-  (void)position;
-  friction_tunable_bring_offsets_home(self);
-  friction_tunable_keep_slips(self);
-  friction_tunable_find_held(self);
-  return self->block_held[0];
-}
-
-// V + T [J]
-static inline double friction_tunable_tunable_stored_energy(const friction_tunable_tunables *self) {
-  double stored = self->tank;
-  for (int i = 0; i < friction_tunable_spring_count; ++i)
-    stored += friction_tunable_spring_force(self, i) * (self->elongation[i] - self->offset[i]) * (double)0.5;
-  return stored;
-}
-
-// `value` becomes what is wanted of it, within its range; what is no number at all leaves it as it is. Returns 1 where
-// that is not what was wanted, else 0.
-static inline unsigned friction_tunable_take_value(const friction_tunable_range_of_parameter *range, double wanted, double *value) {
-  if (wanted == wanted) *value = (wanted < range->min) ? range->min : ((wanted > range->max) ? range->max : wanted);
-  return (*value == wanted) ? 0u : 1u;
-}
-
-// With new numbers: the springs' forces stay as they are as far as energy allows. Returns g of all that joins tool and
-// ground without a slip but for dampers and meshes [N/m].
-static inline double friction_tunable_tunable_set(friction_tunable_tunables *self, const double *numbers) {
-  friction_tunable_spring_change changes[friction_tunable_springs];
-  for (int i = 0; i < friction_tunable_springs; ++i) {
-    changes[i].stiffness = self->stiffness[i];
-    changes[i].force = friction_tunable_spring_force(self, i);
-    changes[i].new_force = 0;
-  }
-  for (int i = 0; i < friction_tunable_spring_count; ++i) self->stiffness[i] = numbers[friction_tunable_spring_numbers[i]];
-  const double stiffness = friction_tunable_find_curves(self, numbers);
-  for (int i = 0; i < friction_tunable_coupling_count; ++i) friction_tunable_tune_tree(self, &friction_tunable_couplings[i], numbers);
-  for (int i = 0; i < friction_tunable_springs; ++i) changes[i].new_stiffness = self->stiffness[i];
-  self->tank = friction_tunable_carry_over(changes, self->tank);
-  for (int i = 0; i < friction_tunable_part_count; ++i) friction_tunable_take_forces(self, &friction_tunable_parts[i], changes);
-  friction_tunable_find_held(self);
-  return stiffness;
-}
-
-// Before all else.
-static inline void friction_tunable_tunable_begin(friction_tunable_tunables *self) {
-  for (int i = 0; i < friction_tunable_springs; ++i) self->stiffness[i] = self->share[i] = self->loss[i] = 0;
-  for (int i = 0; i < friction_tunable_blocks_room; ++i)
-    self->block_stiffness[i] = self->block_held[i] = self->block_feedthrough[i] = 0;
-  for (int i = 0; i <= friction_tunable_slips; ++i) self->sign[i] = 0;
-  for (int i = 0; i < friction_tunable_tree_nodes_room; ++i) {
-    self->nodes[i] = friction_tunable_tree_nodes[i];
-    self->part_states[i].corners = self->part_states[i].sign = self->part_states[i].takes_rest = 0;
-    self->part_states[i].elongation = 0;
-    friction_tunable_become(&self->part_states[i], friction_tunable_rigid, 0, 0, 0);
-  }
-  for (int i = 0; i < friction_tunable_corners; ++i) self->corners[i] = friction_tunable_make_corner(0, 0, 0, 0);
-  for (int i = 0; i < friction_tunable_merged; ++i) self->merged[i] = friction_tunable_make_corner(0, 0, 0, 0);
-  for (int i = 0; i < friction_tunable_slips; ++i) {
-    self->slides_now[i] = 0;
-    self->slid_at_now[i] = 0;
-  }
-  self->root_now = 0;
-  friction_tunable_rest(self);
-}
-
 // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
 // treated as 0. Parameters stay as they are.
 static inline void friction_tunable_reset(friction_tunable *self, double position) {
+  const double zero = 0.0;  // nothing [1]
   self->held_force = 0.0;
   self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
-  self->last_brake = 0.0;
+  self->last_brake = 12.0;
   self->sampled_position = 0.0;
   self->sampled_position_change = 0.0;
-  self->resting_brake = 0.0;
-  self->held_force = friction_tunable_tunable_reset(&self->law, self->last_position);
-  self->resting_brake = friction_tunable_tunable_resting_brake(&self->law, self->brake_left);
-  self->last_brake = self->steady_brake + self->resting_brake;
+  self->spring_2_elongation = 0.0;
+  self->spring_2_held = 0.0;
+  self->tank = 0.0;
+  self->sampled_spring_2_stretched = 0.0;
+  // π
+  self->held_force = zero;
+  self->last_brake = self->steady_brake;
   self->sampled = 0;
 }
 
 // At rest at 0, with the parameters' values of the network's file. To be called before all others.
 static inline void friction_tunable_init(friction_tunable *self) {
-  friction_tunable_tunable_begin(&self->law);
   self->yield = 1.5;
   self->presliding = 2000.0;
   self->drag = 12.0;
-  const double max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
-  const double set_numbers[3] = {self->drag, self->presliding, self->yield};
-  self->step_stiffness = friction_tunable_tunable_set(&self->law, set_numbers);
-  self->held_force = friction_tunable_tunable_held(&self->law);
-  // b follows damper_3
-  self->steady_brake = self->drag;
-  // b∞ − b
-  self->velocity_gain = self->drag - self->steady_brake;
-  self->brake_left = max_damping - self->steady_brake;
+  self->step_stiffness = 0.0;
+  self->steady_brake = 12.0;
+  self->velocity_gain = 0.0;
+  self->spring_2_carried_stiffness = 2000.0;
+  self->friction_yield = 1.5;
+  self->spring_2_answer = 2000.0;
+  self->spring_2_give = 0.0005;
   friction_tunable_reset(self, 0);
   self->sampled = 0;
 }
@@ -1242,22 +720,33 @@ static inline dashpot_command friction_tunable_output(friction_tunable *self, do
   dashpot_command command;
   // Δu = u − u₋
   const double position_change = position - self->last_position;
-  // σ of all slips
-  const double slips_force = friction_tunable_tunable_slip(&self->law, position_change);
-  // b of the slips' regime
-  const friction_tunable_slip_brake slip_brake = friction_tunable_tunable_slip_brake(&self->law, position, self->brake_left);
-  const double slips_feedthrough = slip_brake.now;
-  const double slips_brake = slip_brake.damping;
+  // f and every block's δ, by curves, signs and numbers
+  // kind, children, slips, place, first corner, stiffness, compliance, yield force
+  const friction_tunable_node friction_tunable_coupled_friction[3] = {
+      {friction_tunable_series, 1, 2, 1, 0, 0, 0.0, 0.0, 0.0},
+      {friction_tunable_block, 0, 0, 0, 0, 0, self->spring_2_answer, self->spring_2_give, 0.0},
+      {friction_tunable_slip, 0, 0, 1, 0, 4, 0.0, 0.0, self->friction_yield},
+  };
+  const double coupled_friction_held[1] = {self->spring_2_held};
+  double coupled_friction_elongation[1] = {0};
+  int coupled_friction_sign[1] = {0};
+  friction_tunable_part_state coupled_friction_parts[3] = {{0, 0, 0, 0, 0, 0, 0, 0}};
+  friction_tunable_corner coupled_friction_corners[8] = {{0, 0, 0}}, coupled_friction_merged[4] = {{0, 0, 0}};
+  const friction_tunable_tree coupled_friction_tree = {friction_tunable_coupled_friction, 3, coupled_friction_parts, coupled_friction_corners, coupled_friction_merged};
+  const double slips_force = friction_tunable_tree_step(&coupled_friction_tree, position_change,
+      coupled_friction_held, coupled_friction_elongation, coupled_friction_sign);
+  const double spring_2_stretched = coupled_friction_elongation[0];
   // m = f − b u̇
-  const double force = self->step_stiffness * position_change + self->held_force +
-      slips_force - slips_feedthrough * position_change + self->velocity_gain * velocity;
+  const double force = self->step_stiffness * position_change + self->held_force + slips_force +
+      self->velocity_gain * velocity;
   // b
-  const double brake = self->steady_brake + slips_brake;
+  const double brake = self->steady_brake;
   self->sampled = dashpot_all_finite(position, velocity, force);
   if (self->sampled != 0) {
     self->last_brake = brake;
     self->sampled_position = position;
     self->sampled_position_change = position_change;
+    self->sampled_spring_2_stretched = spring_2_stretched;
     command.damping = brake;
     command.force = force;
   } else {
@@ -1270,7 +759,15 @@ static inline dashpot_command friction_tunable_output(friction_tunable *self, do
 // Takes the states to the next sample; to be called once after each friction_tunable_output(), when the command has left.
 static inline void friction_tunable_update(friction_tunable *self) {
   if (self->sampled != 0) {
-    self->held_force = friction_tunable_tunable_update(&self->law, self->sampled_position_change, self->sampled_position);
+    const double threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+    const double zero = 0.0;  // nothing [1]
+    // z ← z + δ
+    self->spring_2_elongation = dashpot_flush_below(threshold, self->spring_2_elongation +
+        self->sampled_spring_2_stretched);
+    // π
+    self->held_force = zero;
+    // π of the block
+    self->spring_2_held = self->presliding * self->spring_2_elongation;
     // u₋ = u
     self->last_position = self->sampled_position;
     self->sampled = 0;
@@ -1300,15 +797,66 @@ static inline unsigned friction_tunable_set_values(friction_tunable *self, const
   clamped |= friction_tunable_take_value(&friction_tunable_ranges[0], wanted[0], &self->yield) << 0;
   clamped |= friction_tunable_take_value(&friction_tunable_ranges[1], wanted[1], &self->presliding) << 1;
   clamped |= friction_tunable_take_value(&friction_tunable_ranges[2], wanted[2], &self->drag) << 2;
-  const double max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
-  const double set_numbers[3] = {self->drag, self->presliding, self->yield};
-  self->step_stiffness = friction_tunable_tunable_set(&self->law, set_numbers);
-  self->held_force = friction_tunable_tunable_held(&self->law);
+  const double zero = 0.0;  // nothing [1]
+  const double friction_least_yield = 2.980232238769531e-07;  // Y, no less whatever the parameters are [N]
+  const double spring_2_least_answer = 0.0002980232238769531;  // g, no less whatever the parameters are [N/m]
+  const double one = 1.0;  // one [1]
+  const double two = 2.0;  // two [1]
+  const double minus_one = -1.0;  // minus one [1]
+  // g of what joins tool and ground
+  self->step_stiffness = zero;
+  self->friction_yield = (self->yield - friction_least_yield > 0) ? self->yield : friction_least_yield;
+  self->spring_2_answer = (self->presliding - spring_2_least_answer > 0) ? self->presliding :
+      spring_2_least_answer;
+  self->spring_2_give = (self->spring_2_answer > 0) ? one / self->spring_2_answer : zero;
   // b follows damper_3
   self->steady_brake = self->drag;
   // b∞ − b
   self->velocity_gain = self->drag - self->steady_brake;
-  self->brake_left = max_damping - self->steady_brake;
+  const double spring_2_force_before = self->spring_2_carried_stiffness * self->spring_2_elongation;
+  // F, or F √(k′/k) of a softer spring
+  const double spring_2_force_kept = (self->spring_2_carried_stiffness - self->presliding > 0) ?
+      ((self->presliding > 0) ? spring_2_force_before *
+      friction_tunable_square_root(self->presliding / self->spring_2_carried_stiffness) : zero) :
+      spring_2_force_before;
+  const double spring_2_energy_before = (self->spring_2_carried_stiffness > 0) ? spring_2_force_before *
+      (spring_2_force_before / self->spring_2_carried_stiffness) / two : zero;
+  const double spring_2_energy_after = (self->presliding > 0) ? spring_2_force_before *
+      (spring_2_force_before / self->presliding) / two : zero;
+  self->tank = self->tank + ((self->presliding - self->spring_2_carried_stiffness > 0) ?
+      spring_2_energy_before - spring_2_energy_after : zero) +
+      ((self->presliding > 0) ? zero : spring_2_energy_before);
+  const double spring_2_energy_held = (self->presliding > 0) ? spring_2_force_kept *
+      (spring_2_force_kept / self->presliding) / two : zero;
+  const double spring_2_energy_missing = spring_2_energy_after - spring_2_energy_held;
+  const double spring_2_force_most = friction_tunable_square_root(two * self->presliding * (spring_2_energy_held +
+      self->tank));
+  const double spring_2_force_short = spring_2_force_kept - spring_2_force_before;
+  const double spring_2_force_short_size = (spring_2_force_short > 0) ? spring_2_force_short :
+      zero - spring_2_force_short;
+  const double spring_2_falls_short = (self->presliding > 0) ? spring_2_force_short_size : zero;
+  const double spring_2_energy_unpaid = spring_2_energy_missing - self->tank;
+  // F, as far as the tank pays
+  const double spring_2_force_after = (spring_2_falls_short > 0) ? ((spring_2_energy_unpaid > 0) ?
+      ((spring_2_force_before > 0) ? spring_2_force_most : minus_one *
+      spring_2_force_most) : spring_2_force_before) : spring_2_force_kept;
+  self->tank = (spring_2_falls_short > 0) ? ((spring_2_energy_unpaid > 0) ? zero :
+      self->tank - spring_2_energy_missing) : self->tank;
+  const double spring_2_force_change = spring_2_force_after - spring_2_force_before;
+  const double spring_2_force_change_size = (spring_2_force_change > 0) ? spring_2_force_change :
+      zero - spring_2_force_change;
+  const double spring_2_stiffness_change = self->presliding - self->spring_2_carried_stiffness;
+  const double spring_2_stiffness_change_size = (spring_2_stiffness_change > 0) ? spring_2_stiffness_change :
+      zero - spring_2_stiffness_change;
+  const double spring_2_is_changed = spring_2_force_change_size + spring_2_stiffness_change_size;
+  // z = F/k
+  self->spring_2_elongation = (spring_2_is_changed > 0) ? ((self->presliding > 0) ?
+      spring_2_force_after / self->presliding : zero) : self->spring_2_elongation;
+  self->spring_2_carried_stiffness = self->presliding;
+  // π
+  self->held_force = zero;
+  // π of the block
+  self->spring_2_held = self->presliding * self->spring_2_elongation;
   return clamped;
 }
 
@@ -1330,8 +878,10 @@ static inline double friction_tunable_kept_share(const friction_tunable *self) {
 
 // In the springs, and set free by changes of parameters, after the last update() [J].
 static inline double friction_tunable_stored_energy(const friction_tunable *self) {
+  const double half = 0.5;  // a half [1]
   // V + T: in the springs, and what changes of parameters have set free
-  const double stored = friction_tunable_tunable_stored_energy(&self->law);
+  const double stored = self->tank +
+      self->presliding * self->spring_2_elongation * self->spring_2_elongation * half;
   return stored;
 }
 

@@ -124,7 +124,6 @@ static inline double second_order_maxwell_parameter_max(int i) {
   return 0;
 }
 
-
 // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
 // treated as 0. Parameters stay as they are.
 static inline void second_order_maxwell_reset(second_order_maxwell *self, double position) {

@@ -127,7 +127,6 @@ static inline double visco_elasto_plastic_parameter_max(int i) {
   return 0;
 }
 
-
 // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
 // treated as 0. Parameters stay as they are.
 static inline void visco_elasto_plastic_reset(visco_elasto_plastic *self, double position) {

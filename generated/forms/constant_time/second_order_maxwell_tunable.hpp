@@ -13,16 +13,16 @@
 //   least 5.5 N·s/m is there, 0.0652 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 6.6e-15 of the sum of the force's terms
+//   falls; rounding adds at most 3.9e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows B1 + damper_3
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
-// cost of update(): 16 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers are kept
+// cost of update(): 15 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers are kept
 //   between samples
-// cost of set(): at most 242 additions, multiplications and divisions
+// cost of set(): 132 operations for the constants, 107 for the forces of springs and their energy
 // constant time: output() and update() decide by masks, not by jumps
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
@@ -35,7 +35,7 @@
 #include <dashpot/command.hpp>
 #include <dashpot/exponential.hpp>
 #include <dashpot/elementary.hpp>
-#include <dashpot/tunable/tables.hpp>
+#include <dashpot/tunable_range.hpp>
 
 namespace dashpot::generated {
 
@@ -63,12 +63,6 @@ class second_order_maxwell_tunable {
     scalar B2 = 6.0;  // 0.5 to 20 [N s/m]
   };
 
-  // At rest at 0, with the parameters that are there to begin with.
-  second_order_maxwell_tunable() noexcept {
-    set({});
-    reset();
-  }
-
   // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
@@ -81,7 +75,7 @@ class second_order_maxwell_tunable {
     // z = u
     K3_elongation_ = last_position_;
     // π
-    held_force_ = nothing + K3 * (K3_elongation_ - K3_offset_) +
+    held_force_ = K3 * (K3_elongation_ - K3_offset_) +
         (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
         (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
     last_brake_ = steady_brake_;
@@ -123,7 +117,7 @@ class second_order_maxwell_tunable {
     K3_elongation_ = dashpot::branch_free::chosen(sampled, sampled_position_, K3_elongation_);
     const scalar K3_offset_after = dashpot::branch_free::flush_below(threshold, retention * K3_offset_);
     const scalar K3_offset_cost = K3 * (K3_offset_ - K3_offset_after) * (K3_elongation_ - K3_offset_after +
-        (K3_elongation_ - K3_offset_)) * half_of;
+        (K3_elongation_ - K3_offset_)) * half;
     const scalar K3_offset_unpaid = K3_offset_cost - tank_;
     // r goes home where the tank pays
     K3_offset_ = dashpot::branch_free::chosen(sampled, dashpot::branch_free::where(K3_offset_unpaid, K3_offset_,
@@ -131,7 +125,7 @@ class second_order_maxwell_tunable {
     tank_ = dashpot::branch_free::chosen(sampled, dashpot::branch_free::where(K3_offset_unpaid, tank_,
         tank_ - K3_offset_cost), tank_);
     // π
-    held_force_ = dashpot::branch_free::chosen(sampled, nothing + K3 * (K3_elongation_ - K3_offset_) +
+    held_force_ = dashpot::branch_free::chosen(sampled, K3 * (K3_elongation_ - K3_offset_) +
         (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
         (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_)), held_force_);
     // u₋ = u
@@ -164,86 +158,85 @@ class second_order_maxwell_tunable {
     damper_3_K2_kept_ = dashpot::mean_decay(damper_3_K2_ratio_);
     // α = x φ
     damper_3_K2_loss_ = damper_3_K2_ratio_ * damper_3_K2_kept_;
-    const scalar K3_force_before = K3 * (K3_elongation_ - K3_offset_);
-    const scalar B1_spring_2_force_before = B1_spring_2_carried_stiffness_ * B1_spring_2_elongation_;
     // g of what joins tool and ground
-    step_stiffness_ = nothing + K3 + K1_ * B1_spring_2_kept_ + K2 * damper_3_K2_kept_;
-    // F, or F √(k′/k) of a softer spring
-    const scalar B1_spring_2_force_kept = B1_spring_2_carried_stiffness_ - K1_ > 0 ? (K1_ > 0 ?
-        B1_spring_2_force_before *
-        dashpot::square_root(K1_ / B1_spring_2_carried_stiffness_) : nothing) : B1_spring_2_force_before;
-    const scalar B1_spring_2_energy_before = B1_spring_2_carried_stiffness_ > 0 ? B1_spring_2_force_before *
-        (B1_spring_2_force_before / B1_spring_2_carried_stiffness_) / two : nothing;
-    const scalar B1_spring_2_energy_after = K1_ > 0 ? B1_spring_2_force_before *
-        (B1_spring_2_force_before / K1_) / two : nothing;
-    tank_ = tank_ + (K1_ - B1_spring_2_carried_stiffness_ > 0 ?
-        B1_spring_2_energy_before - B1_spring_2_energy_after : nothing) +
-        (K1_ > 0 ? nothing : B1_spring_2_energy_before);
-    const scalar B1_spring_2_energy_held = K1_ > 0 ? B1_spring_2_force_kept *
-        (B1_spring_2_force_kept / K1_) / two : nothing;
-    const scalar B1_spring_2_energy_missing = B1_spring_2_energy_after - B1_spring_2_energy_held;
-    const scalar B1_spring_2_force_most = dashpot::square_root(two * K1_ * (B1_spring_2_energy_held + tank_));
-    const scalar B1_spring_2_force_short = B1_spring_2_force_kept - B1_spring_2_force_before;
-    const scalar B1_spring_2_force_short_size = B1_spring_2_force_short > 0 ? B1_spring_2_force_short :
-        nothing - B1_spring_2_force_short;
-    const scalar B1_spring_2_falls_short = K1_ > 0 ? B1_spring_2_force_short_size : nothing;
-    const scalar B1_spring_2_energy_unpaid = B1_spring_2_energy_missing - tank_;
-    // F, as far as the tank pays
-    const scalar B1_spring_2_force_after = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ?
-        (B1_spring_2_force_before > 0 ? B1_spring_2_force_most : reversed *
-        B1_spring_2_force_most) : B1_spring_2_force_before) : B1_spring_2_force_kept;
-    tank_ = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ? nothing :
-        tank_ - B1_spring_2_energy_missing) : tank_;
-    const scalar missing_force = nothing + (K3_force_before - K3_force_before) +
-        (B1_spring_2_force_before - B1_spring_2_force_after);
-    const scalar energy_at_hand = (K3 > 0 ? K3_force_before * (K3_force_before / K3) / two : nothing) + tank_;
-    const scalar most_force = dashpot::square_root(two * K3 * energy_at_hand);
-    const scalar wanted_force = K3_force_before + missing_force;
-    const scalar least_force = reversed * most_force;
-    const scalar made_up_force = wanted_force - most_force > 0 ? most_force : (least_force - wanted_force > 0 ?
-        least_force : wanted_force);
-    const scalar missing_size = missing_force > 0 ? missing_force : nothing - missing_force;
-    const scalar is_missing = K3 > 0 ? missing_size : nothing;
-    const scalar energy_left = energy_at_hand - (K3 > 0 ? made_up_force * (made_up_force / K3) / two : nothing);
-    // F of the static spring
-    const scalar K3_force_made_up = is_missing > 0 ? made_up_force : K3_force_before;
-    tank_ = is_missing > 0 ? (energy_left > 0 ? energy_left : nothing) : tank_;
-    const scalar K3_force_change = K3_force_made_up - K3_force_before;
-    const scalar K3_force_change_size = K3_force_change > 0 ? K3_force_change : nothing - K3_force_change;
-    const scalar K3_offset_exact = K3 > 0 ? K3_elongation_ - K3_force_made_up / K3 : nothing;
-    const scalar K3_offset_seen = K3_elongation_ + K3_offset_exact * quarter - K3_elongation_;
-    const scalar K3_offset_seen_size = K3_offset_seen > 0 ? K3_offset_seen : nothing - K3_offset_seen;
-    // r = z − F/k
-    K3_offset_ = K3_force_change_size > 0 ? (K3_offset_seen_size > 0 ? K3_offset_exact : nothing) : K3_offset_;
-    const scalar B1_spring_2_force_change = B1_spring_2_force_after - B1_spring_2_force_before;
-    const scalar B1_spring_2_force_change_size = B1_spring_2_force_change > 0 ? B1_spring_2_force_change :
-        nothing - B1_spring_2_force_change;
-    const scalar B1_spring_2_stiffness_change = K1_ - B1_spring_2_carried_stiffness_;
-    const scalar B1_spring_2_stiffness_change_size = B1_spring_2_stiffness_change > 0 ?
-        B1_spring_2_stiffness_change : nothing - B1_spring_2_stiffness_change;
-    const scalar B1_spring_2_is_changed = B1_spring_2_force_change_size + B1_spring_2_stiffness_change_size;
-    // z = F/k
-    B1_spring_2_elongation_ = B1_spring_2_is_changed > 0 ? (K1_ > 0 ? B1_spring_2_force_after / K1_ : nothing) :
-        B1_spring_2_elongation_;
-    B1_spring_2_carried_stiffness_ = K1_;
-    // π
-    held_force_ = nothing + K3 * (K3_elongation_ - K3_offset_) +
-        (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
-        (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
+    step_stiffness_ = K3 + K1_ * B1_spring_2_kept_ + K2 * damper_3_K2_kept_;
     B1_damper_3_sum_ = B1_damper_3 + B2_;
     // b follows B1 + damper_3
     steady_brake_ = B1_damper_3_sum_;
     // b∞ − b
     velocity_gain_ = no_damping - steady_brake_;
+    const scalar K3_force_before = K3 * (K3_elongation_ - K3_offset_);
+    const scalar B1_spring_2_force_before = B1_spring_2_carried_stiffness_ * B1_spring_2_elongation_;
+    // F, or F √(k′/k) of a softer spring
+    const scalar B1_spring_2_force_kept = B1_spring_2_carried_stiffness_ - K1_ > 0 ? (K1_ > 0 ?
+        B1_spring_2_force_before *
+        dashpot::square_root(K1_ / B1_spring_2_carried_stiffness_) : zero) : B1_spring_2_force_before;
+    const scalar B1_spring_2_energy_before = B1_spring_2_carried_stiffness_ > 0 ? B1_spring_2_force_before *
+        (B1_spring_2_force_before / B1_spring_2_carried_stiffness_) / two : zero;
+    const scalar B1_spring_2_energy_after = K1_ > 0 ? B1_spring_2_force_before *
+        (B1_spring_2_force_before / K1_) / two : zero;
+    tank_ = tank_ + (K1_ - B1_spring_2_carried_stiffness_ > 0 ?
+        B1_spring_2_energy_before - B1_spring_2_energy_after : zero) + (K1_ > 0 ? zero : B1_spring_2_energy_before);
+    const scalar B1_spring_2_energy_held = K1_ > 0 ? B1_spring_2_force_kept *
+        (B1_spring_2_force_kept / K1_) / two : zero;
+    const scalar B1_spring_2_energy_missing = B1_spring_2_energy_after - B1_spring_2_energy_held;
+    const scalar B1_spring_2_force_most = dashpot::square_root(two * K1_ * (B1_spring_2_energy_held + tank_));
+    const scalar B1_spring_2_force_short = B1_spring_2_force_kept - B1_spring_2_force_before;
+    const scalar B1_spring_2_force_short_size = B1_spring_2_force_short > 0 ? B1_spring_2_force_short :
+        zero - B1_spring_2_force_short;
+    const scalar B1_spring_2_falls_short = K1_ > 0 ? B1_spring_2_force_short_size : zero;
+    const scalar B1_spring_2_energy_unpaid = B1_spring_2_energy_missing - tank_;
+    // F, as far as the tank pays
+    const scalar B1_spring_2_force_after = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ?
+        (B1_spring_2_force_before > 0 ? B1_spring_2_force_most : minus_one *
+        B1_spring_2_force_most) : B1_spring_2_force_before) : B1_spring_2_force_kept;
+    tank_ = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ? zero :
+        tank_ - B1_spring_2_energy_missing) : tank_;
+    const scalar missing_force = K3_force_before - K3_force_before +
+        (B1_spring_2_force_before - B1_spring_2_force_after);
+    const scalar energy_at_hand = (K3 > 0 ? K3_force_before * (K3_force_before / K3) / two : zero) + tank_;
+    const scalar most_force = dashpot::square_root(two * K3 * energy_at_hand);
+    const scalar wanted_force = K3_force_before + missing_force;
+    const scalar least_force = minus_one * most_force;
+    const scalar made_up_force = wanted_force - most_force > 0 ? most_force : (least_force - wanted_force > 0 ?
+        least_force : wanted_force);
+    const scalar missing_size = missing_force > 0 ? missing_force : zero - missing_force;
+    const scalar is_missing = K3 > 0 ? missing_size : zero;
+    const scalar energy_left = energy_at_hand - (K3 > 0 ? made_up_force * (made_up_force / K3) / two : zero);
+    // F of the static spring
+    const scalar K3_force_made_up = is_missing > 0 ? made_up_force : K3_force_before;
+    tank_ = is_missing > 0 ? (energy_left > 0 ? energy_left : zero) : tank_;
+    const scalar K3_force_change = K3_force_made_up - K3_force_before;
+    const scalar K3_force_change_size = K3_force_change > 0 ? K3_force_change : zero - K3_force_change;
+    const scalar K3_offset_exact = K3 > 0 ? K3_elongation_ - K3_force_made_up / K3 : zero;
+    const scalar K3_offset_seen = K3_elongation_ + K3_offset_exact * quarter - K3_elongation_;
+    const scalar K3_offset_seen_size = K3_offset_seen > 0 ? K3_offset_seen : zero - K3_offset_seen;
+    // r = z − F/k
+    K3_offset_ = K3_force_change_size > 0 ? (K3_offset_seen_size > 0 ? K3_offset_exact : zero) : K3_offset_;
+    const scalar B1_spring_2_force_change = B1_spring_2_force_after - B1_spring_2_force_before;
+    const scalar B1_spring_2_force_change_size = B1_spring_2_force_change > 0 ? B1_spring_2_force_change :
+        zero - B1_spring_2_force_change;
+    const scalar B1_spring_2_stiffness_change = K1_ - B1_spring_2_carried_stiffness_;
+    const scalar B1_spring_2_stiffness_change_size = B1_spring_2_stiffness_change > 0 ?
+        B1_spring_2_stiffness_change : zero - B1_spring_2_stiffness_change;
+    const scalar B1_spring_2_is_changed = B1_spring_2_force_change_size + B1_spring_2_stiffness_change_size;
+    // z = F/k
+    B1_spring_2_elongation_ = B1_spring_2_is_changed > 0 ? (K1_ > 0 ? B1_spring_2_force_after / K1_ : zero) :
+        B1_spring_2_elongation_;
+    B1_spring_2_carried_stiffness_ = K1_;
+    // π
+    held_force_ = K3 * (K3_elongation_ - K3_offset_) +
+        (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
+        (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
     return clamped;
   }
 
   // In the springs, and set free by changes of parameters, after the last update() [J].
   scalar stored_energy() const noexcept {
     // V + T: in the springs, and what changes of parameters have set free
-    const scalar stored = tank_ + K3 * (K3_elongation_ - K3_offset_) * (K3_elongation_ - K3_offset_) * half_of +
-        K1_ * B1_spring_2_elongation_ * B1_spring_2_elongation_ * half_of +
-        K2 * damper_3_K2_elongation_ * damper_3_K2_elongation_ * half_of;
+    const scalar stored = tank_ + K3 * (K3_elongation_ - K3_offset_) * (K3_elongation_ - K3_offset_) * half +
+        K1_ * B1_spring_2_elongation_ * B1_spring_2_elongation_ * half +
+        K2 * damper_3_K2_elongation_ * damper_3_K2_elongation_ * half;
     return stored;
   }
 
@@ -256,40 +249,40 @@ class second_order_maxwell_tunable {
   static constexpr scalar period = 0.001;  // T [s]
   static constexpr scalar no_damping = 0.0;  // none [N·s/m]
   static constexpr scalar B1_damper_3 = 5.0;  // of what does not change [N s/m]
-  static constexpr scalar nothing = 0.0;  // zero [1]
+  static constexpr scalar zero = 0.0;  // nothing [1]
   static constexpr scalar two = 2.0;  // two [1]
-  static constexpr scalar reversed = -1.0;  // minus one [1]
+  static constexpr scalar minus_one = -1.0;  // minus one [1]
   static constexpr scalar quarter = 0.25;  // a quarter [1]
   static constexpr scalar retention = 0.9900498337491681;  // what an offset keeps in a sample [1]
-  static constexpr scalar half_of = 0.5;  // a half [1]
+  static constexpr scalar half = 0.5;  // a half [1]
   static constexpr dashpot::tunable_range<scalar> tunables[2] = {
       {12.0, 0.0, 100.0},  // K1 [N/m]
       {6.0, 0.5, 20.0},  // B2 [N s/m]
   };
 
   scalar held_force_ = 0;  // π, what springs hold [N]
-  scalar last_brake_ = 0;  // b of the sample before [N·s/m]
+  scalar K1_ = 12.0;  // parameter [N/m]
+  scalar B2_ = 6.0;  // parameter [N s/m]
+  scalar B1_spring_2_ratio_ = 0.0024000000000000002;  // a sample over the relaxation time [1]
+  scalar B1_spring_2_kept_ = 0.9988009594242764;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar B1_spring_2_loss_ = 0.0023971223026182636;  // α, what is lost in a sample [1]
+  scalar damper_3_K2_ratio_ = 0.0016666666666666668;  // a sample over the relaxation time [1]
+  scalar damper_3_K2_kept_ = 0.9991671294367926;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar damper_3_K2_loss_ = 0.0016652785490613212;  // α, what is lost in a sample [1]
+  scalar step_stiffness_ = 26.977282807459243;  // what springs answer in a sample [N/m]
+  scalar B1_damper_3_sum_ = 11.0;  // of these together [N s/m]
+  scalar steady_brake_ = 11.0;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = -11.0;  // b∞ − b [N·s/m]
+  scalar last_brake_ = 11.0;  // b of the sample before [N·s/m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar K3_elongation_ = 0;  // z [m]
   scalar B1_spring_2_elongation_ = 0;  // z [m]
+  scalar B1_spring_2_carried_stiffness_ = 12.0;  // k for which the force is what it is [N/m]
   scalar damper_3_K2_elongation_ = 0;  // z [m]
   scalar K3_offset_ = 0;  // r, how far its rest length is from home [m]
   scalar tank_ = 0;  // T, set free by changes of parameters [J]
   scalar last_position_ = 0;  // u of the sample before [m]
-  scalar K1_ = 12.0;  // parameter [N/m]
-  scalar B2_ = 6.0;  // parameter [N s/m]
-  scalar B1_spring_2_ratio_ = 0;  // a sample over the relaxation time [1]
-  scalar B1_spring_2_kept_ = 0;  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar B1_spring_2_loss_ = 0;  // α, what is lost in a sample [1]
-  scalar damper_3_K2_ratio_ = 0;  // a sample over the relaxation time [1]
-  scalar damper_3_K2_kept_ = 0;  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar damper_3_K2_loss_ = 0;  // α, what is lost in a sample [1]
-  scalar step_stiffness_ = 0;  // what springs answer in a sample [N/m]
-  scalar B1_damper_3_sum_ = 0;  // of these together [N s/m]
-  scalar steady_brake_ = 0;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = 0;  // b∞ − b [N·s/m]
-  scalar B1_spring_2_carried_stiffness_ = 0;  // k for which the force is what it is [N/m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -82,7 +82,7 @@ double relative_jump(std::uint64_t seed, double rate) {
   compiler::Choices choices = feedthrough();
   choices.rate = rate;
   const TunableLaw compiled(tunable_network(seed, Kind::parallel_branches), choices);
-  if (compiled.law().tunable->head.static_spring == no_index) return -1;
+  if (compiled.law().tunable->head.static_spring == compiler::no_index) return -1;
   Random random(seed);
   Law law(compiled.law()), unchanged(compiled.law());
   const auto walk = random_walk(random, 20);

@@ -1,0 +1,95 @@
+// Slips while parameters change: the numbers of their solvers, which set() works out, the steps of the solvers, and
+// what they leave to the brake (theory, section 6).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "discretise/slide_memory.hpp"
+#include "law/tunable_tables.hpp"
+#include "lower/spelled_numbers.hpp"
+
+namespace dashpot::compiler {
+
+// What joins two ends without a slip. Block 0 joins tool, or surface, and ground.
+struct SpelledBlock {
+  std::string name;
+  ExpressionId stiffness = nothing;    // g, in set(); `nothing` for none [N/m]
+  ExpressionId feedthrough = nothing;  // b∞, tuned; `nothing` for none [N·s/m]
+  VariableId held = nothing;           // π, a state [N]
+};
+
+class SpelledSlips {
+ public:
+  // All outlive this; what is in the blocks may come later.
+  SpelledSlips(SpelledNumbers& numbers, const TunableTables& tables, const std::vector<SpelledBlock>& blocks)
+      : numbers_(numbers), writer_(numbers.writer()), tables_(tables), rule_(tables.head.slip_rule), blocks_(blocks) {}
+
+  void declare();
+  // In set(), when every block has its g.
+  void tune(const std::vector<ExpressionId>& numbers);
+
+  // In output(): the force that opposes the tool, by its change; behind a surface, by the tool's approach, also the
+  // surface's change.
+  void write_step(VariableId force, ExpressionId change);
+  void write_push(VariableId force, ExpressionId approach, VariableId surface_change);
+  // After it: b∞/T behind slips as far as the brake makes it, b on its way, and b where it is going, where asked for.
+  struct Brake {
+    VariableId now, damping, wanted;
+  };
+  void write_brake(const Brake& found, VariableId position, ExpressionId left);
+  // In reset(): b while all hold.
+  void write_resting_brake(VariableId damping, ExpressionId left);
+
+  // In update(): δ of a block behind slips, and what is remembered of the sample.
+  ExpressionId elongation(std::size_t block);
+  void keep();
+
+ private:
+  struct Tree {
+    Coupling coupling;
+    std::size_t first_block, first_slip;
+  };
+  struct Graph {
+    SlipNetwork network;
+    const TunableGraph* table;
+  };
+
+  bool is_pushed() const { return tables_.head.contact.is_there; }
+  bool coil_lags() const { return rule_.coil_share < 1; }
+  void declare(const TunableCoupling& table);
+  void declare(const TunableGraph& table);
+  void tune(Tree& tree, const std::vector<ExpressionId>& numbers);
+  void tune(Graph& graph, const std::vector<ExpressionId>& numbers);
+  void tune_end(Tree& tree, std::size_t node, std::vector<ExpressionId>& stiffness,
+                std::vector<ExpressionId>& compliance);
+  // Of a slip: its yield force, a constant or tuned.
+  void tune_yield(std::size_t slip, const std::vector<ExpressionId>& numbers, double& constant, VariableId& tuned);
+  ExpressionId bounded_stiffness(std::size_t block);
+  void write_tree(Tree& tree, VariableId force, ExpressionId change, VariableId surface_change);
+  void write_graph(Graph& graph, VariableId force, ExpressionId change, VariableId surface_change);
+  ExpressionId moved(const Graph& graph, int end);
+  ExpressionId damping_of(const std::vector<ExpressionId>& slides, const std::string& prefix);
+  // A number that set() leaves for the steps.
+  VariableId told(const std::string& name, const std::string& unit, const std::string& meaning, ExpressionId value);
+  ExpressionId within(ExpressionId left, const std::string& name, ExpressionId damping);
+  ExpressionId least_of(ExpressionId one, ExpressionId other);
+  ExpressionId largest_of(ExpressionId one, ExpressionId other);
+  // The value of a constant, nothing of what is tuned.
+  std::optional<double> constant_in(ExpressionId value) const;
+
+  SpelledNumbers& numbers_;
+  LawWriter& writer_;
+  const TunableTables& tables_;
+  const TunableSlipRule& rule_;
+  const std::vector<SpelledBlock>& blocks_;
+  std::vector<Tree> trees_;
+  std::vector<Graph> graphs_;
+  std::vector<VariableId> elongations_;  // local of output, of blocks in trees
+  std::vector<VariableId> signs_;        // local of output, one a slip; of trees `nothing` where nothing asks for it
+  std::vector<SlideMemory> memories_;    // one a slip where the encoder has steps
+  VariableId change_ = nothing;          // of the tool, or of the surface, in output()
+  VariableId root_ = nothing, root_now_ = nothing;  // √b where the coil lags
+};
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,21 @@
+// The range of a parameter that changes while a law runs.
+#pragma once
+
+namespace dashpot {
+
+template <class Scalar>
+struct tunable_range {
+  Scalar value;  // to begin with
+  Scalar min;
+  Scalar max;
+};
+
+// `value` becomes what is wanted of it, within its range; what is no number at all leaves it as it is. Returns 1 where
+// that is not what was wanted, else 0.
+template <class Scalar>
+constexpr unsigned take_value(const tunable_range<Scalar>& range, Scalar wanted, Scalar& value) noexcept {
+  if (wanted == wanted) value = wanted < range.min ? range.min : wanted > range.max ? range.max : wanted;
+  return value == wanted ? 0u : 1u;
+}
+
+}  // namespace dashpot

@@ -1,6 +1,7 @@
-// Calls of dashpot::tunable_law as the statements that it would run, in their order: springs, meshes, the tank and the
-// motor's limits are then states and numbers of the law like all others. Decisions become choices between two numbers,
-// so that a sample takes the same steps whatever the values.
+// The calls of a law whose parameters change as the statements that they stand for: springs, meshes, slips, the tank
+// and the motor's limits are then states and numbers of the law like all others (theory, section 6). Decisions become
+// choices between two numbers, so that but for solvers of slips a sample takes the same steps whatever the values. V +
+// T never rises by more than the work that the tool does, set() included.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -9,7 +10,7 @@
 
 namespace dashpot::compiler {
 
-// The same law to the bit. Of a law without calls that law.
+// Before this a law cannot be run or printed. Of a law without calls that law.
 UpdateLaw spelled_out(UpdateLaw law, motion port_motion);
 
 }  // namespace dashpot::compiler

@@ -1,6 +1,8 @@
-// Springs and dampers between inner nodes as statements: those of dashpot::tunable_mesh, in their order. A conductance
-// that is not there is `nothing`, and what it would be multiplied with or added to is left out: no bit changes, since
-// none is below zero.
+// Springs and dampers between inner nodes as statements, eliminated node after node from star to mesh:
+//     g_jk += g_ij g_ik / Σ g_i
+// Conductances are only added, multiplied and divided, never subtracted: nothing cancels, at any ratio of values, and a
+// node that nothing holds is seen exactly. One that is not there is `nothing`, and so is what it would be multiplied
+// with.
 #pragma once
 
 #include <vector>

@@ -22,6 +22,7 @@ std::vector<Entry> part_of(const std::vector<Entry>& all, int first, int count) 
 void SpelledSlips::declare() {
   elongations_.assign(blocks_.size(), nothing);
   signs_.assign(tables_.yields.size(), nothing);
+  slides_.assign(tables_.yields.size(), nothing);
   for (const TunableCoupling& table : tables_.couplings) declare(table);
   for (const TunableGraph& table : tables_.graphs) declare(table);
   if (!rule_.takes_part) return;
@@ -34,10 +35,17 @@ void SpelledSlips::declare() {
 }
 
 void SpelledSlips::declare(const TunableCoupling& table) {
-  Tree tree{{}, place(table.first_block), place(table.first_slip)};
+  const std::size_t first_block = place(table.first_block), first_slip = place(table.first_slip);
+  std::vector<slip_node<double>> nodes = part_of(tables_.nodes, table.first_node, table.node_count);
+  if (const auto path = is_pushed() ? std::nullopt : SpelledLoneSlip::path_of(nodes, first_block)) {
+    lone_.push_back({SpelledLoneSlip(numbers_, blocks_, *path, tables_.slip_names[first_slip]), std::move(nodes), *path,
+                     first_block, first_slip});
+    return;
+  }
+  Tree tree{{}, first_block, first_slip};
   Coupling& coupling = tree.coupling;
   coupling.name = writer_.unique(joined("coupled", tables_.slip_names[tree.first_slip]));
-  coupling.nodes = part_of(tables_.nodes, table.first_node, table.node_count);
+  coupling.nodes = std::move(nodes);
   coupling.tuned.resize(coupling.nodes.size());
   for (const slip_node<double>& node : coupling.nodes) {
     if (node.kind == slip_part::block) {
@@ -96,8 +104,18 @@ void SpelledSlips::declare(const TunableGraph& table) {
 }
 
 void SpelledSlips::tune(const std::vector<ExpressionId>& numbers) {
+  for (Lone& lone : lone_) tune(lone, numbers);
   for (Tree& tree : trees_) tune(tree, numbers);
   for (Graph& graph : graphs_) tune(graph, numbers);
+}
+
+void SpelledSlips::tune(Lone& lone, const std::vector<ExpressionId>& numbers) {
+  std::vector<ExpressionId> stiffness;
+  for (const SpelledLoneSlip::Level& level : lone.path) stiffness.push_back(bounded_stiffness(level.block));
+  const ExpressionId yield = yield_of(lone.slip, numbers);
+  lone.step.tune(stiffness, constant_in(yield) ? yield
+                                               : writer_.read(told(joined(tables_.slip_names[lone.slip], "yield"),
+                                                                   writer_.force(), "Y", yield)));
 }
 
 // With every slip giving way: of a block g, of a slip 0, in parallel the sum, in series the inverse of Σ 1/g.
@@ -142,8 +160,7 @@ void SpelledSlips::tune_end(Tree& tree, std::size_t k, std::vector<ExpressionId>
 }
 
 // The least of all ways to cut through a slip.
-void SpelledSlips::tune_yield(std::size_t slip, const std::vector<ExpressionId>& numbers, double& constant,
-                              VariableId& tuned) {
+ExpressionId SpelledSlips::yield_of(std::size_t slip, const std::vector<ExpressionId>& numbers) {
   const TunableYield& yield = tables_.yields[slip];
   ExpressionId weakest = nothing;
   for (int i = yield.first_cut; i < yield.first_cut + yield.cut_count; ++i) {
@@ -152,7 +169,12 @@ void SpelledSlips::tune_yield(std::size_t slip, const std::vector<ExpressionId>&
   }
   const ExpressionId least = numbers_.constant(joined(tables_.slip_names[slip], "least_yield"), writer_.force(),
                                                "Y, no less whatever the parameters are", yield.least);
-  const ExpressionId found = largest_of(weakest, least);
+  return largest_of(weakest, least);
+}
+
+void SpelledSlips::tune_yield(std::size_t slip, const std::vector<ExpressionId>& numbers, double& constant,
+                              VariableId& tuned) {
+  const ExpressionId found = yield_of(slip, numbers);
   if (const std::optional<double> fixed = constant_in(found)) constant = *fixed;
   else tuned = told(joined(tables_.slip_names[slip], "yield"), writer_.force(), "Y", found);
 }
@@ -211,7 +233,7 @@ void SpelledSlips::tune(Graph& graph, const std::vector<ExpressionId>& numbers) 
 
 void SpelledSlips::write_step(VariableId force, ExpressionId change) {
   change_ = writer_.reads(change);
-  const bool is_alone = trees_.size() + graphs_.size() == 1;
+  const bool is_alone = lone_.size() + trees_.size() + graphs_.size() == 1;
   ExpressionId sum = nothing;
   const auto part = [&](const std::string& name) {
     if (is_alone) return force;
@@ -219,6 +241,8 @@ void SpelledSlips::write_step(VariableId force, ExpressionId change) {
     sum = writer_.plus(sum, writer_.read(own));
     return own;
   };
+  for (Lone& lone : lone_)
+    slides_[lone.slip] = lone.step.write_step(part(joined(tables_.slip_names[lone.slip], "part")), change);
   for (Tree& tree : trees_) write_tree(tree, part(tree.coupling.name), change, no_variable);
   for (Graph& graph : graphs_) write_graph(graph, part(graph.network.name), change, no_variable);
   if (!is_alone) numbers_.assign(force, sum, "σ of all slips");
@@ -267,6 +291,12 @@ ExpressionId SpelledSlips::damping_of(const std::vector<ExpressionId>& slides, c
   for (std::size_t i = 0; i < blocks_.size(); ++i)  // of block 0 the brake has been told already
     damping.push_back(i == 0 ? ExpressionId(nothing) : blocks_[i].feedthrough);
   ExpressionId sum = nothing;
+  for (const Lone& lone : lone_) {
+    SpelledRegime regime(numbers_,
+                         part_of(damping, static_cast<int>(lone.first_block), static_cast<int>(lone.path.size())),
+                         {slides[lone.slip]});
+    sum = writer_.plus(sum, regime.of_tree(lone.nodes, joined(prefix, tables_.slip_names[lone.slip])));
+  }
   for (const Tree& tree : trees_) {
     const int blocks = static_cast<int>(tree.coupling.held.size()),
               slips = static_cast<int>(tree.coupling.slips.size());
@@ -288,8 +318,9 @@ ExpressionId SpelledSlips::damping_of(const std::vector<ExpressionId>& slides, c
 }
 
 void SpelledSlips::write_brake(const Brake& found, VariableId position, ExpressionId left) {
-  std::vector<ExpressionId> slides;
-  for (const VariableId sign : signs_) slides.push_back(writer_.multiply(writer_.read(sign), writer_.read(sign)));
+  std::vector<ExpressionId> slides = slides_;
+  for (std::size_t k = 0; k < slides.size(); ++k)
+    if (slides[k] == nothing) slides[k] = writer_.multiply(writer_.read(signs_[k]), writer_.read(signs_[k]));
   const ExpressionId now = numbers_.named("slips_damping_now", writer_.damping(),
                                           within(left, "regime_damping_now", damping_of(slides, "now")));
   const ExpressionId rate = writer_.constant("rate", "Hz", "1/T", tables_.head.rate, ConstantRole::sampling);
@@ -323,6 +354,8 @@ ExpressionId SpelledSlips::moved(const Graph& graph, int end) {
 
 ExpressionId SpelledSlips::elongation(std::size_t block) {
   if (elongations_[block] != nothing) return writer_.read(writer_.kept(elongations_[block]));
+  for (Lone& lone : lone_)
+    if (const ExpressionId stretched = lone.step.elongation(block); stretched != nothing) return stretched;
   for (const Graph& graph : graphs_) {
     const int tie = static_cast<int>(block) - graph.table->first_block;
     if (tie < 0 || tie >= graph.table->tie_count) continue;

@@ -7,17 +7,11 @@
 
 #include "discretise/slide_memory.hpp"
 #include "law/tunable_tables.hpp"
+#include "lower/spelled_block.hpp"
+#include "lower/spelled_lone_slip.hpp"
 #include "lower/spelled_numbers.hpp"
 
 namespace dashpot::compiler {
-
-// What joins two ends without a slip. Block 0 joins tool, or surface, and ground.
-struct SpelledBlock {
-  std::string name;
-  ExpressionId stiffness = nothing;    // g, in set(); `nothing` for none [N/m]
-  ExpressionId feedthrough = nothing;  // b∞, tuned; `nothing` for none [N·s/m]
-  VariableId held = nothing;           // π, a state [N]
-};
 
 class SpelledSlips {
  public:
@@ -55,15 +49,25 @@ class SpelledSlips {
     const TunableGraph* table;
   };
 
+  // A tree of one slip, which needs no solver.
+  struct Lone {
+    SpelledLoneSlip step;
+    std::vector<slip_node<double>> nodes;
+    SpelledLoneSlip::Path path;
+    std::size_t first_block, slip;
+  };
+
   bool is_pushed() const { return tables_.head.contact.is_there; }
   bool coil_lags() const { return rule_.coil_share < 1; }
   void declare(const TunableCoupling& table);
   void declare(const TunableGraph& table);
+  void tune(Lone& lone, const std::vector<ExpressionId>& numbers);
   void tune(Tree& tree, const std::vector<ExpressionId>& numbers);
   void tune(Graph& graph, const std::vector<ExpressionId>& numbers);
   void tune_end(Tree& tree, std::size_t node, std::vector<ExpressionId>& stiffness,
                 std::vector<ExpressionId>& compliance);
-  // Of a slip: its yield force, a constant or tuned.
+  ExpressionId yield_of(std::size_t slip, const std::vector<ExpressionId>& numbers);
+  // The same as a constant or tuned.
   void tune_yield(std::size_t slip, const std::vector<ExpressionId>& numbers, double& constant, VariableId& tuned);
   ExpressionId bounded_stiffness(std::size_t block);
   void write_tree(Tree& tree, VariableId force, ExpressionId change, VariableId surface_change);
@@ -83,10 +87,12 @@ class SpelledSlips {
   const TunableTables& tables_;
   const TunableSlipRule& rule_;
   const std::vector<SpelledBlock>& blocks_;
+  std::vector<Lone> lone_;
   std::vector<Tree> trees_;
   std::vector<Graph> graphs_;
   std::vector<VariableId> elongations_;  // local of output, of blocks in trees
-  std::vector<VariableId> signs_;        // local of output, one a slip; of trees `nothing` where nothing asks for it
+  std::vector<VariableId> signs_;        // local of output, of slips in trees and graphs where something asks for them
+  std::vector<ExpressionId> slides_;     // in output(), above zero where the slip gives way
   std::vector<SlideMemory> memories_;    // one a slip where the encoder has steps
   VariableId change_ = nothing;          // of the tool, or of the surface, in output()
   VariableId root_ = nothing, root_now_ = nothing;  // √b where the coil lags

@@ -15,14 +15,13 @@
 //   command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 5.4e-15 of the sum of the force's terms
+//   falls; rounding adds at most 1.4e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows damper_3
-// cost of output(): 4 additions, 2 multiplications, 0 guards against subnormal numbers
-//   and at most 41 additions, multiplications and divisions for the coupled slips
+// cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 additions, 1 multiplications, 1 guards against subnormal numbers; 9 numbers are kept between
 //   samples
 // cost of set(): 7 operations for the constants, 53 for the forces of springs and their energy
@@ -35,7 +34,6 @@
 
 #include <dashpot/command.hpp>
 #include <dashpot/elementary.hpp>
-#include <dashpot/slip_tree.hpp>
 #include <dashpot/tunable_range.hpp>
 
 namespace dashpot::generated {
@@ -85,15 +83,16 @@ class friction_tunable {
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
-    // f and every block's δ, by curves, signs and numbers
-    const scalar coupled_friction_held[1] = {spring_2_held_};
-    scalar coupled_friction_elongation[1] = {};
-    int coupled_friction_sign[1] = {};
-    dashpot::slip_tree_scratch<scalar, 3, 1, 8> coupled_friction_scratch;
-    const scalar slips_force = dashpot::slip_tree<scalar>(coupled_friction_,
-        coupled_friction_scratch).step(position_change, coupled_friction_held, coupled_friction_elongation,
-        coupled_friction_sign);
-    const scalar spring_2_stretched = coupled_friction_elongation[0];
+    // t, the slip's force if it held
+    const scalar friction_trial = spring_2_answer_ * position_change + spring_2_held_;
+    // s = clamp(t, ±Y)
+    const scalar friction_force = dashpot::clamp_to(friction_yield_, friction_trial);
+    // r = t − s
+    const scalar friction_excess = friction_trial - friction_force;
+    // δ of the block
+    const scalar spring_2_stretched = position_change + spring_2_given_way_ * friction_excess;
+    // f
+    const scalar slips_force = friction_force;
     // m = f − b u̇
     const scalar force = step_stiffness_ * position_change + held_force_ + slips_force + velocity_gain_ * velocity;
     // b
@@ -124,9 +123,37 @@ class friction_tunable {
 
   // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // t, the slip's force if it held
+    const scalar friction_trial = spring_2_answer_ * position_change + spring_2_held_;
+    // s = clamp(t, ±Y)
+    const scalar friction_force = dashpot::clamp_to(friction_yield_, friction_trial);
+    // r = t − s
+    const scalar friction_excess = friction_trial - friction_force;
+    // δ of the block
+    const scalar spring_2_stretched = position_change + spring_2_given_way_ * friction_excess;
+    // f
+    const scalar slips_force = friction_force;
+    // m = f − b u̇
+    const scalar force = step_stiffness_ * position_change + held_force_ + slips_force + velocity_gain_ * velocity;
+    // b
+    const scalar brake = steady_brake_;
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {last_brake_, 0};
+    }
+    last_brake_ = brake;
+    // z ← z + δ
+    spring_2_elongation_ = dashpot::flush_below(threshold, spring_2_elongation_ + spring_2_stretched);
+    // π
+    held_force_ = zero;
+    // π of the block
+    spring_2_held_ = presliding_ * spring_2_elongation_;
+    // u₋ = u
+    last_position_ = position;
+    sampled_ = false;
+    return {brake, force};
   }
 
   // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its
@@ -141,7 +168,8 @@ class friction_tunable {
     step_stiffness_ = zero;
     friction_yield_ = yield_ - friction_least_yield > 0 ? yield_ : friction_least_yield;
     spring_2_answer_ = presliding_ - spring_2_least_answer > 0 ? presliding_ : spring_2_least_answer;
-    spring_2_give_ = spring_2_answer_ > 0 ? one / spring_2_answer_ : zero;
+    const scalar friction_moved_1 = one / spring_2_answer_;
+    spring_2_given_way_ = zero - friction_moved_1;
     // b follows damper_3
     steady_brake_ = drag_;
     // b∞ − b
@@ -187,9 +215,6 @@ class friction_tunable {
     held_force_ = zero;
     // π of the block
     spring_2_held_ = presliding_ * spring_2_elongation_;
-    coupled_friction_[1].stiffness = spring_2_answer_;
-    coupled_friction_[1].compliance = spring_2_give_;
-    coupled_friction_[2].yield = friction_yield_;
     return clamped;
   }
 
@@ -203,8 +228,8 @@ class friction_tunable {
  private:
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar zero = 0.0;  // nothing [1]
-  static constexpr scalar friction_least_yield = 2.980232238769531e-07;  // Y, no less whatever the parameters are [N]
   static constexpr scalar spring_2_least_answer = 0.0002980232238769531;  // g, no less whatever the parameters are [N/m]
+  static constexpr scalar friction_least_yield = 2.980232238769531e-07;  // Y, no less whatever the parameters are [N]
   static constexpr scalar one = 1.0;  // one [1]
   static constexpr scalar two = 2.0;  // two [1]
   static constexpr scalar minus_one = -1.0;  // minus one [1]
@@ -230,16 +255,10 @@ class friction_tunable {
   scalar spring_2_held_ = 0;  // π, what the block holds [N]
   scalar tank_ = 0;  // T, set free by changes of parameters [J]
   scalar friction_yield_ = 1.5;  // Y [N]
-  scalar spring_2_answer_ = 2000.0;  // g of a part whose slips give way [N/m]
-  scalar spring_2_give_ = 0.0005;  // 1/g of it [m/N]
-  scalar sampled_spring_2_stretched_ = 0;  // δ of the block, at this sample [m]
+  scalar spring_2_answer_ = 2000.0;  // g of the block [N/m]
+  scalar spring_2_given_way_ = -0.0005;  // δ for each newton that the slip does not hold [m/N]
+  scalar sampled_spring_2_stretched_ = 0;  // at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]
-  // kind, children, slips, place, first corner, stiffness, compliance, yield force
-  dashpot::slip_node<scalar> coupled_friction_[3] = {
-      {dashpot::slip_part::series, 1, 2, 1, 0, 0, 0.0, 0.0, 0.0},
-      {dashpot::slip_part::block, 0, 0, 0, 0, 0, 2000.0, 0.0005, 0.0},
-      {dashpot::slip_part::slip, 0, 0, 1, 0, 4, 0.0, 0.0, 1.5},
-  };
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -46,17 +46,28 @@ std::vector<std::string> networks(const fs::path& folder) {
   return files;
 }
 
-// Branches, trees, meshes and what is behind a surface, with parameters; those that dashpot brings along; and one
-// behind a static curve.
+// Branches, trees, meshes and what is behind a surface, with parameters; those that dashpot brings along, but for slips
+// that are coupled; one behind a static curve; and slips that each stand alone, deep among springs and dampers.
 std::vector<std::string> tunable_networks(const fs::path& folder) {
   std::vector<std::string> files;
-  for (const char* name : {"second_order_maxwell", "springpot", "standard_solid"})
+  for (const char* name : {"second_order_maxwell", "springpot", "standard_solid", "friction"})
     files.push_back(fmt::format(DASHPOT_NETWORKS "/tunable/{}_tunable.json", name));
   files.push_back((folder / "curved.json").string());
   write_text(files.back(), R"({ "dashpot": 1, "name": "curved", "static": { "power": 2, "force": "1 N", "at": "5 mm" },
     "parameters": { "K": { "value": 300, "tunable": true, "min": 30, "max": 900 },
                     "B": { "value": 3, "tunable": true, "min": 0, "max": 30 } },
     "network": { "parallel": [ { "spring": "K" }, { "damper": 1 }, { "series": [ { "spring": 200 }, { "damper": "B" } ] } ] } })");
+  files.push_back((folder / "rubbing.json").string());
+  write_text(files.back(), R"({ "dashpot": 1, "name": "rubbing",
+    "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 900 },
+                    "B": { "value": 3, "tunable": true, "min": 0, "max": 30 },
+                    "Y": { "value": 0.4, "tunable": true, "min": 0, "max": 2 } },
+    "network": { "parallel": [
+      { "series": [ { "parallel": [ { "spring": 500 }, { "damper": "B" } ] },
+                    { "parallel": [ { "spring": "K" },
+                                    { "series": [ { "parallel": [ { "spring": 800 }, { "damper": 2 } ] },
+                                                  { "parallel": [ { "slip": "Y" }, { "spring": 90 } ] } ] } ] } ] },
+      { "series": [ { "spring": "K" }, { "slip": 0.2 } ] } ] } })");
   constexpr Kind without_slips[] = {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::touched};
   for (std::uint64_t seed = 1; seed <= repetitions(4, 40); ++seed) {
     files.push_back((folder / fmt::format("tunable_{}.json", seed)).string());

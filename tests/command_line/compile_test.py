@@ -85,11 +85,12 @@ class Files(CommandTest):
         self.write("coupled.json", network(COUPLED, "coupled"))
         refused = self.refused("compile", "coupled.json", "--constant-time", code="step-of-coupled-slips")
         self.assertRegex(refused.stderr, "without --constant-time a step takes at most [1-9][0-9]* operations")
-        rubbing = SOURCE / "networks/tunable/friction_tunable.json"
-        refused = self.refused("compile", rubbing, "--constant-time", code="step-of-coupled-slips")
+        layers = SOURCE / "networks/tunable/layers_tunable.json"
+        refused = self.refused("compile", layers, "--constant-time", code="step-of-coupled-slips")
         self.assertRegex(refused.stderr, "without --constant-time a step takes at most [1-9][0-9]* operations")
-        self.dashpot("compile", SOURCE / "networks/tunable/standard_solid_tunable.json", "--constant-time")
-        self.assertIn("branch_free", (self.folder / "standard_solid_tunable.hpp").read_text())
+        for tunable in ["standard_solid_tunable", "friction_tunable"]:
+            self.dashpot("compile", SOURCE / f"networks/tunable/{tunable}.json", "--constant-time")
+            self.assertIn("branch_free", (self.folder / f"{tunable}.hpp").read_text())
 
     def test_batch(self):
         """Fails if --batch does not write its class beside the single one, or laws that have none pass."""
@@ -97,7 +98,7 @@ class Files(CommandTest):
         self.assertEqual(self.files("out"), ["kelvin.hpp", "kelvin_batch.hpp"])
         self.assertIn("class kelvin_batch {", (self.folder / "out/kelvin_batch.hpp").read_text())
         self.write("coupled.json", network(COUPLED, "coupled"))
-        for file in ["coupled.json", SOURCE / "networks/tunable/friction_tunable.json"]:
+        for file in ["coupled.json", SOURCE / "networks/tunable/layers_tunable.json"]:
             refused = self.refused("compile", file, "--batch", code="step-of-coupled-slips")
             self.assertIn("without --batch one object of the class for each point", refused.stderr)
 

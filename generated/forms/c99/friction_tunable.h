@@ -15,14 +15,13 @@
 //   command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 5.4e-15 of the sum of the force's terms
+//   falls; rounding adds at most 1.4e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows damper_3
-// cost of output(): 4 additions, 2 multiplications, 0 guards against subnormal numbers
-//   and at most 41 additions, multiplications and divisions for the coupled slips
+// cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 additions, 1 multiplications, 1 guards against subnormal numbers; 9 numbers are kept between
 //   samples
 // cost of set(): 7 operations for the constants, 53 for the forces of springs and their energy
@@ -136,469 +135,6 @@ static inline unsigned friction_tunable_take_value(const friction_tunable_range_
   return (*value == wanted) ? 0u : 1u;
 }
 
-// One step of slips that are coupled through a tree of linear blocks: exact, with a bound on the work, without
-// iteration. In a sample each block answers its elongation δ with the force p = g δ + π, each slip holds |p| ≤ Y and
-// gives way only at ±Y. Three passes over the parts of the tree:
-//   curves    every part is a monotone polyline in (δ, p). In parallel forces add, in series elongations do;
-//   signs     from the tool down, which slips give way, and to which side;
-//   numbers   with these known every part is rigid, a constant force, or p = g δ + π. Corners alone would lose digits.
-enum { friction_tunable_block, friction_tunable_slip, friction_tunable_series, friction_tunable_parallel };
-
-// A part of the tree. Parts stand breadth first, the root at 0: children are neighbours and come after their parent.
-typedef struct friction_tunable_node {
-  int kind;
-  int first_child;  // of a series or parallel
-  int child_count;
-  int slips;          // in this part
-  int place;          // of a block or slip: where it stands in the inputs and outputs of a step
-  int first_corner;   // where its curve begins
-  double stiffness;   // g of a block; of the others dp/dδ at both ends of the curve, 0 where flat [N/m]
-  double compliance;  // its inverse, 0 where flat [m/N]
-  double yield;       // Y of a slip [N]
-} friction_tunable_node;
-
-// The curve of a part that gives way, p against δ: a polyline that never falls. Beside its kinks it knows its force at
-// δ = 0.
-typedef struct friction_tunable_corner {
-  double elongation;  // δ [m]
-  double force;       // p [N]
-  int is_kink;        // else the point at δ = 0
-} friction_tunable_corner;
-
-// As it is read by elongation where parts stand in parallel, by force where they stand in series.
-typedef struct friction_tunable_curve {
-  const friction_tunable_corner *corners;
-  int count;
-  int by_force;
-  double end_slope;  // of what is read, at both ends
-  int is_open;       // flat ends, read by force: no value beyond them, any value at them
-} friction_tunable_curve;
-
-// All values of a curve at one place: more than one on a step.
-typedef struct friction_tunable_range {
-  double low, high;
-  int open_low, open_high;  // reaches to infinity
-  int exists;               // false beyond open ends
-  int is_kink;
-} friction_tunable_range;
-
-enum { friction_tunable_rigid, friction_tunable_constant, friction_tunable_affine };
-
-// What is known of a part in the course of a step.
-typedef struct friction_tunable_part_state {
-  int corners;     // of its curve
-  int sign;        // of a slip: 0 stuck, ±1 the side to which it gives way
-  int takes_rest;  // gets what is left over of its series' elongation
-  int hold;
-  double stiffness;   // g where affine [N/m]
-  double compliance;  // 1/g [m/N]
-  double force;       // π where affine, the force itself where constant [N]
-  double elongation;  // δ [m]
-} friction_tunable_part_state;
-
-typedef struct friction_tunable_tree {
-  const friction_tunable_node *nodes;
-  int count;
-  friction_tunable_part_state *parts;
-  friction_tunable_corner *corners;
-  friction_tunable_corner *merged;  // room for the sum of two curves, as large as the root's
-} friction_tunable_tree;
-
-// Corners that a part's curve needs: two a slip, and of each of the curves that are added up in it, and of a block, the
-// point where that part rests. No more are ever written, whatever the numbers are.
-static inline int friction_tunable_corner_room(const friction_tunable_node *node) { return 3 * node->slips + 1; }
-static inline int friction_tunable_at_most(int count, int room) { return (count < room) ? count : room; }
-
-static inline double friction_tunable_corner_at(const friction_tunable_corner *corner, int by_force) {
-  return by_force ? corner->force : corner->elongation;
-}
-static inline double friction_tunable_corner_value(const friction_tunable_corner *corner, int by_force) {
-  return by_force ? corner->elongation : corner->force;
-}
-static inline friction_tunable_corner friction_tunable_make_corner(int by_force, double at, double value, int is_kink) {
-  friction_tunable_corner corner = {at, value, is_kink};
-  if (by_force) {
-    corner.elongation = value;
-    corner.force = at;
-  }
-  return corner;
-}
-
-// From the nearer corner, never beyond either.
-static inline double friction_tunable_between(const friction_tunable_corner *a, const friction_tunable_corner *b, int by_force, double at) {
-  const double low = friction_tunable_corner_value(a, by_force), high = friction_tunable_corner_value(b, by_force);
-  if (low == high) return low;
-  const double before = at - friction_tunable_corner_at(a, by_force), after = friction_tunable_corner_at(b, by_force) - at;
-  const double rise = (high - low) / (before + after);
-  return (before < after) ? (low + before * rise) : (high - after * rise);
-}
-
-static inline double friction_tunable_beyond(const friction_tunable_curve *curve, const friction_tunable_corner *end, double at) {
-  if (curve->end_slope == 0) return friction_tunable_corner_value(end, curve->by_force);
-  return friction_tunable_corner_value(end, curve->by_force) + curve->end_slope * (at - friction_tunable_corner_at(end, curve->by_force));
-}
-
-// Where no corner is: between two, or beyond the ends.
-static inline friction_tunable_range friction_tunable_beside(const friction_tunable_curve *curve, int next, double at) {
-  const int is_end = (next == 0) || (next >= curve->count);
-  const double value = is_end ? friction_tunable_beyond(curve, &curve->corners[(next == 0) ? 0 : (next - 1)], at)
-                              : friction_tunable_between(&curve->corners[next - 1], &curve->corners[next], curve->by_force, at);
-  const int is_open = is_end && curve->is_open;
-  const friction_tunable_range range = {value, value, is_open && (next == 0), is_open && (next != 0), !is_open, 0};
-  return range;
-}
-
-// Reads a curve at places that never fall; `next` is the corner that comes next.
-static inline friction_tunable_range friction_tunable_read(const friction_tunable_curve *curve, int *next, double at) {
-  const int first = *next;
-  int is_kink = 0;
-  while ((*next < curve->count) && (friction_tunable_corner_at(&curve->corners[*next], curve->by_force) == at)) {
-    is_kink = curve->corners[*next].is_kink || is_kink;
-    ++*next;
-  }
-  if (first == *next) return friction_tunable_beside(curve, *next, at);
-  const friction_tunable_range range = {friction_tunable_corner_value(&curve->corners[first], curve->by_force),
-                           friction_tunable_corner_value(&curve->corners[*next - 1], curve->by_force),
-                           curve->is_open && (first == 0),
-                           curve->is_open && (*next == curve->count),
-                           1,
-                           is_kink};
-  return range;
-}
-
-static inline friction_tunable_range friction_tunable_curve_at(const friction_tunable_curve *curve, double at) {
-  int next = 0;
-  while ((next < curve->count) && (friction_tunable_corner_at(&curve->corners[next], curve->by_force) < at)) ++next;
-  return friction_tunable_read(curve, &next, at);
-}
-
-// Behind `count` corners in `to`. Rounding must not bend a curve back.
-static inline int friction_tunable_append_corner(friction_tunable_corner *to, int count, int room, int by_force, double at, double value,
-                                    int is_kink) {
-  if (count >= room) return room;
-  const int falls = (count > 0) && (value < friction_tunable_corner_value(&to[count - 1], by_force));
-  to[count] = friction_tunable_make_corner(by_force, at, falls ? friction_tunable_corner_value(&to[count - 1], by_force) : value, is_kink);
-  return count + 1;
-}
-
-// The sum of two curves; `to` has `room` for it. Returns how many corners there are.
-static inline int friction_tunable_merge_curves(const friction_tunable_curve *a, const friction_tunable_curve *b, friction_tunable_corner *to, int room) {
-  const int most = friction_tunable_at_most(a->count + b->count, room), by_force = a->by_force;
-  int count = 0, next_a = 0, next_b = 0;
-  for (int i = 0; (i < most) && ((next_a < a->count) || (next_b < b->count)); ++i) {
-    const int takes_b =
-        (next_a == a->count) || ((next_b < b->count) && (friction_tunable_corner_at(&b->corners[next_b], by_force) <
-                                                         friction_tunable_corner_at(&a->corners[next_a], by_force)));
-    const double at = takes_b ? friction_tunable_corner_at(&b->corners[next_b], by_force)
-                              : friction_tunable_corner_at(&a->corners[next_a], by_force);
-    const friction_tunable_range in_a = friction_tunable_read(a, &next_a, at), in_b = friction_tunable_read(b, &next_b, at);
-    if (!in_a.exists || !in_b.exists) continue;
-    const int is_kink = in_a.is_kink || in_b.is_kink;
-    count = friction_tunable_append_corner(to, count, most, by_force, at, in_a.low + in_b.low, is_kink);
-    if ((in_a.low < in_a.high) || (in_b.low < in_b.high))
-      count = friction_tunable_append_corner(to, count, most, by_force, at, in_a.high + in_b.high, is_kink);
-  }
-  return count;
-}
-
-// Puts a point of the curve where it belongs, `count` being how many corners there are. Returns how many there then are.
-static inline int friction_tunable_insert_corner(friction_tunable_corner *corners, int count, int room, int by_force, friction_tunable_corner corner) {
-  int place = count;
-  if (count >= room) return room;
-  for (; (place > 0) && (friction_tunable_corner_at(&corners[place - 1], by_force) > friction_tunable_corner_at(&corner, by_force)); --place)
-    corners[place] = corners[place - 1];
-  corners[place] = corner;
-  return count + 1;
-}
-
-// Leaves the kinks and the point at δ = 0; on a flat end nothing is gained by it. Returns how many there are.
-static inline int friction_tunable_mark_rest(const friction_tunable_curve *curve, friction_tunable_corner *corners, int room) {
-  const friction_tunable_range rest = friction_tunable_curve_at(curve, 0);
-  int count = 0;
-  for (int i = 0; i < curve->count; ++i)
-    if (corners[i].is_kink && (count < room)) corners[count++] = corners[i];
-  if (count == 0) return 0;
-  const int is_flat =
-      (curve->end_slope == 0) && ((corners[0].elongation > 0) || (corners[count - 1].elongation < 0));
-  if (rest.is_kink || is_flat) return count;
-  return friction_tunable_insert_corner(corners, count, room, 0, friction_tunable_make_corner(0, 0, rest.low, 0));
-}
-
-static inline friction_tunable_curve friction_tunable_curve_of(const friction_tunable_tree *tree, int k, int by_force) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  const friction_tunable_curve curve = {tree->corners + node->first_corner, tree->parts[k].corners, by_force,
-                           by_force ? node->compliance : node->stiffness, by_force && (node->stiffness == 0)};
-  return curve;
-}
-
-// p of a block where it is read by elongation, δ where by force.
-static inline double friction_tunable_block_value(const friction_tunable_node *block, int by_force, double held, double at) {
-  return by_force ? ((at - held) * block->compliance) : (block->stiffness * at + held);
-}
-
-static inline friction_tunable_range friction_tunable_curve_by_force_at(const friction_tunable_tree *tree, int k, double force) {
-  const friction_tunable_curve curve = friction_tunable_curve_of(tree, k, 1);
-  return friction_tunable_curve_at(&curve, force);
-}
-
-static inline void friction_tunable_draw_slip(const friction_tunable_tree *tree, int k) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  tree->corners[node->first_corner] = friction_tunable_make_corner(0, 0, -node->yield, 1);
-  tree->corners[node->first_corner + 1] = friction_tunable_make_corner(0, 0, node->yield, 1);
-  tree->parts[k].corners = 2;
-}
-
-// The sum of two curves, `to` being where the first one lies and the sum shall.
-static inline friction_tunable_curve friction_tunable_with(const friction_tunable_tree *tree, friction_tunable_curve sum, const friction_tunable_curve *other, friction_tunable_corner *to, int room) {
-  const friction_tunable_corner *from = (sum.count == 0) ? other->corners : tree->merged;
-  const int count =
-      (sum.count == 0) ? friction_tunable_at_most(other->count, room) : friction_tunable_merge_curves(&sum, other, tree->merged, room);
-  for (int i = 0; i < count; ++i) to[i] = from[i];
-  const friction_tunable_curve both = {to, count, sum.by_force, sum.end_slope + other->end_slope, sum.is_open || other->is_open};
-  return both;
-}
-
-// In series the point where the block rests is one of the curve too.
-static inline friction_tunable_curve friction_tunable_with_block(friction_tunable_curve sum, const friction_tunable_node *block, double held, friction_tunable_corner *corners, int room) {
-  if (sum.by_force) {
-    const friction_tunable_range rest = friction_tunable_curve_at(&sum, held);
-    if (rest.exists && !rest.is_kink)
-      sum.count = friction_tunable_insert_corner(corners, sum.count, room, 1, friction_tunable_make_corner(1, held, rest.low, 0));
-  }
-  for (int i = 0; i < sum.count; ++i) {
-    const double at = friction_tunable_corner_at(&corners[i], sum.by_force);
-    const double value = friction_tunable_corner_value(&corners[i], sum.by_force) + friction_tunable_block_value(block, sum.by_force, held, at);
-    corners[i] = friction_tunable_make_corner(sum.by_force, at, value, corners[i].is_kink);
-  }
-  sum.end_slope = sum.end_slope + (sum.by_force ? block->compliance : block->stiffness);
-  return sum;
-}
-
-static inline void friction_tunable_draw(const friction_tunable_tree *tree, int k, const double *held) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  const int room = friction_tunable_corner_room(node);
-  friction_tunable_corner *corners = tree->corners + node->first_corner;
-  friction_tunable_curve sum = {corners, 0, node->kind == friction_tunable_series, 0, 0};
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i)
-    if (tree->nodes[i].kind != friction_tunable_block) {
-      const friction_tunable_curve other = friction_tunable_curve_of(tree, i, sum.by_force);
-      sum = friction_tunable_with(tree, sum, &other, corners, room);
-    }
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i)
-    if (tree->nodes[i].kind == friction_tunable_block)
-      sum = friction_tunable_with_block(sum, &tree->nodes[i], held[tree->nodes[i].place], corners, room);
-  tree->parts[k].corners = sum.count;
-  if (node->kind == friction_tunable_series) {
-    const friction_tunable_curve curve = friction_tunable_curve_of(tree, k, 0);
-    tree->parts[k].corners = friction_tunable_mark_rest(&curve, corners, room);
-  }
-}
-
-static inline void friction_tunable_draw_curves(const friction_tunable_tree *tree, const double *held) {
-  for (int k = tree->count - 1; k >= 0; --k) {
-    if (tree->nodes[k].kind == friction_tunable_slip) friction_tunable_draw_slip(tree, k);
-    if (tree->nodes[k].kind >= friction_tunable_series) friction_tunable_draw(tree, k, held);
-  }
-}
-
-static inline void friction_tunable_find_signs_in_parallel(const friction_tunable_tree *tree, int k) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  const double elongation = tree->parts[k].elongation;
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i) {
-    tree->parts[i].elongation = elongation;
-    tree->parts[i].takes_rest = 0;
-    tree->parts[i].sign = (elongation > 0) ? 1 : ((elongation < 0) ? -1 : 0);
-  }
-}
-
-// What is left over goes to those that may give way at this force, in turn; all but the last as far as they can.
-static inline void friction_tunable_place_rest(const friction_tunable_tree *tree, int k, double rest, double force) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  int is_placed = 0;
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i) {
-    friction_tunable_part_state *part = &tree->parts[i];
-    if (!part->takes_rest) continue;
-    part->takes_rest = 0;
-    if (is_placed) continue;
-    const friction_tunable_range range = friction_tunable_curve_by_force_at(tree, i, force);
-    const double room = range.high - range.low;
-    is_placed = range.open_low || range.open_high || (rest < room);
-    part->takes_rest = is_placed;
-    const int is_backwards = range.open_low ? (rest > 0) : (rest < 0);
-    if (is_placed && !is_backwards) part->elongation += rest;
-    if (is_placed) continue;
-    part->elongation = range.high;
-    rest -= room;
-  }
-}
-
-static inline friction_tunable_range friction_tunable_elongations(const friction_tunable_tree *tree, int i, double force, const double *held) {
-  if (tree->nodes[i].kind != friction_tunable_block) return friction_tunable_curve_by_force_at(tree, i, force);
-  const double elongation = friction_tunable_block_value(&tree->nodes[i], 1, held[tree->nodes[i].place], force);
-  const friction_tunable_range range = {elongation, elongation, 0, 0, 1, 0};
-  return range;
-}
-
-static inline void friction_tunable_find_signs_in_series(const friction_tunable_tree *tree, int k, const double *held) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  const friction_tunable_curve curve = friction_tunable_curve_of(tree, k, 0);
-  const friction_tunable_range forces = friction_tunable_curve_at(&curve, tree->parts[k].elongation);
-  const double force = (forces.low < forces.high) ? (forces.low + (forces.high - forces.low) / 2) : forces.low;
-  double rest = tree->parts[k].elongation;
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i) {
-    const friction_tunable_range range = friction_tunable_elongations(tree, i, force, held);
-    friction_tunable_part_state *part = &tree->parts[i];
-    part->elongation = range.open_low ? range.high : range.low;
-    part->takes_rest = (range.low < range.high) || range.open_low || range.open_high;
-    part->sign = (force >= tree->nodes[i].yield) ? 1 : ((force <= -tree->nodes[i].yield) ? -1 : 0);
-    rest -= part->elongation;
-  }
-  friction_tunable_place_rest(tree, k, rest, force);
-}
-
-static inline void friction_tunable_find_signs(const friction_tunable_tree *tree, double change, const double *held, int *sign) {
-  tree->parts[0].elongation = change;
-  for (int k = 0; k < tree->count; ++k) {
-    if (tree->nodes[k].kind == friction_tunable_parallel) friction_tunable_find_signs_in_parallel(tree, k);
-    if (tree->nodes[k].kind == friction_tunable_series) friction_tunable_find_signs_in_series(tree, k, held);
-    if (tree->nodes[k].kind == friction_tunable_slip) sign[tree->nodes[k].place] = tree->parts[k].sign;
-  }
-}
-
-static inline void friction_tunable_become(friction_tunable_part_state *part, int hold, double stiffness, double compliance, double force) {
-  part->hold = hold;
-  part->stiffness = stiffness;
-  part->compliance = compliance;
-  part->force = force;
-}
-
-// Any rigid → rigid; else g = Σ g_i, π = Σ π_i; all constant → constant.
-static inline void friction_tunable_add_up_parallel(const friction_tunable_tree *tree, int k) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  int rigid = 0, affine = 0;
-  double stiffness = 0, force = 0;
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i) {
-    const friction_tunable_part_state *part = &tree->parts[i];
-    if (part->hold == friction_tunable_rigid) ++rigid;
-    if (part->hold == friction_tunable_affine) {
-      ++affine;
-      stiffness += part->stiffness;
-    }
-    force += part->force;
-  }
-  if (rigid != 0) friction_tunable_become(&tree->parts[k], friction_tunable_rigid, 0, 0, 0);
-  else if (affine == 0) friction_tunable_become(&tree->parts[k], friction_tunable_constant, 0, 0, force);
-  else friction_tunable_become(&tree->parts[k], friction_tunable_affine, stiffness, 1 / stiffness, force);
-}
-
-// The child that holds a constant force, by choice the one that takes the rest; 0 for none.
-static inline int friction_tunable_constant_child(const friction_tunable_tree *tree, int k) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  int found = 0;
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i)
-    if ((tree->parts[i].hold == friction_tunable_constant) && ((found == 0) || tree->parts[i].takes_rest)) found = i;
-  return found;
-}
-
-// A constant force wins; rigid parts drop out; 1/g = Σ 1/g_i, π = g Σ π_i/g_i; all rigid → rigid.
-static inline void friction_tunable_add_up_series(const friction_tunable_tree *tree, int k) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  friction_tunable_part_state *whole = &tree->parts[k];
-  const int constant = friction_tunable_constant_child(tree, k);
-  int affine = 0, last = 0;
-  double compliance = 0, weighted = 0;
-  if (constant != 0) {
-    friction_tunable_become(whole, friction_tunable_constant, 0, 0, tree->parts[constant].force);
-    return;
-  }
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i) {
-    const friction_tunable_part_state *part = &tree->parts[i];
-    if (part->hold != friction_tunable_affine) continue;
-    ++affine;
-    last = i;
-    compliance += part->compliance;
-    weighted += part->force * part->compliance;
-  }
-  if (affine == 0) {
-    friction_tunable_become(whole, friction_tunable_rigid, 0, 0, 0);
-  } else if (affine == 1) {
-    const friction_tunable_part_state *part = &tree->parts[last];
-    friction_tunable_become(whole, friction_tunable_affine, part->stiffness, part->compliance, part->force);
-  } else {
-    const double stiffness = 1 / compliance;
-    friction_tunable_become(whole, friction_tunable_affine, stiffness, compliance, weighted * stiffness);
-  }
-}
-
-static inline void friction_tunable_add_up(const friction_tunable_tree *tree, const double *held) {
-  for (int k = tree->count - 1; k >= 0; --k) {
-    const friction_tunable_node *node = &tree->nodes[k];
-    friction_tunable_part_state *part = &tree->parts[k];
-    if (node->kind == friction_tunable_block)
-      friction_tunable_become(part, friction_tunable_affine, node->stiffness, node->compliance, held[node->place]);
-    else if (node->kind == friction_tunable_slip)
-      friction_tunable_become(part, (part->sign == 0) ? friction_tunable_rigid : friction_tunable_constant, 0, 0, (double)part->sign * node->yield);
-    else if (node->kind == friction_tunable_parallel) friction_tunable_add_up_parallel(tree, k);
-    else friction_tunable_add_up_series(tree, k);
-  }
-}
-
-static inline int friction_tunable_is_only_affine(const friction_tunable_tree *tree, int k) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  int affine = 0;
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i)
-    if (tree->parts[i].hold == friction_tunable_affine) ++affine;
-  return affine == 1;
-}
-
-// δ_i = (p − π_i)/g_i where affine, 0 where rigid; the rest where constant.
-static inline void friction_tunable_share_in_series(const friction_tunable_tree *tree, int k) {
-  const friction_tunable_node *node = &tree->nodes[k];
-  const friction_tunable_part_state *whole = &tree->parts[k];
-  const int taker = friction_tunable_constant_child(tree, k);
-  const int is_undivided = (taker == 0) && friction_tunable_is_only_affine(tree, k);
-  const double force =
-      (whole->hold == friction_tunable_affine) ? (whole->stiffness * whole->elongation + whole->force) : whole->force;
-  double rest = whole->elongation;
-  for (int i = node->first_child; i < (node->first_child + node->child_count); ++i) {
-    friction_tunable_part_state *part = &tree->parts[i];
-    if (i == taker) continue;
-    if (part->hold == friction_tunable_rigid) part->elongation = 0;
-    if (part->hold == friction_tunable_affine)
-      part->elongation = is_undivided ? whole->elongation : ((force - part->force) * part->compliance);
-    rest -= part->elongation;
-  }
-  if (taker != 0) tree->parts[taker].elongation = rest;
-}
-
-static inline void friction_tunable_share(const friction_tunable_tree *tree, double change, double *elongation) {
-  tree->parts[0].elongation = change;
-  for (int k = 0; k < tree->count; ++k) {
-    const friction_tunable_node *node = &tree->nodes[k];
-    if (node->kind == friction_tunable_parallel)
-      for (int i = node->first_child; i < (node->first_child + node->child_count); ++i)
-        tree->parts[i].elongation = tree->parts[k].elongation;
-    if (node->kind == friction_tunable_series) friction_tunable_share_in_series(tree, k);
-    if (node->kind == friction_tunable_block) elongation[node->place] = tree->parts[k].elongation;
-  }
-}
-
-static inline double friction_tunable_force_at(const friction_tunable_tree *tree, double change) {
-  const friction_tunable_part_state *root = &tree->parts[0];
-  return (root->hold == friction_tunable_affine) ? (root->stiffness * change + root->force) : root->force;
-}
-
-// In: the root's elongation in this sample [m], π of every block [N]. Out: the force that opposes it [N], δ of every
-// block [m], and for every slip 0 where it holds, ±1 where it gives way to that side.
-static inline double friction_tunable_tree_step(const friction_tunable_tree *tree, double change, const double *held, double *elongation,
-                                   int *sign) {
-  friction_tunable_draw_curves(tree, held);
-  friction_tunable_find_signs(tree, change, held, sign);
-  friction_tunable_add_up(tree, held);
-  friction_tunable_share(tree, change, elongation);
-  return friction_tunable_force_at(tree, change);
-}
-
 static const friction_tunable_range_of_parameter friction_tunable_ranges[3] = {
     {0.0, 5.0},  // yield [N]
     {200.0, 5000.0},  // presliding [N/m]
@@ -629,9 +165,9 @@ typedef struct friction_tunable {
   double spring_2_held;  // π, what the block holds [N]
   double tank;  // T, set free by changes of parameters [J]
   double friction_yield;  // Y [N]
-  double spring_2_answer;  // g of a part whose slips give way [N/m]
-  double spring_2_give;  // 1/g of it [m/N]
-  double sampled_spring_2_stretched;  // δ of the block, at this sample [m]
+  double spring_2_answer;  // g of the block [N/m]
+  double spring_2_given_way;  // δ for each newton that the slip does not hold [m/N]
+  double sampled_spring_2_stretched;  // at this sample [m]
   int sampled;  // 1 while a finite sample waits for friction_tunable_update()
 } friction_tunable;
 
@@ -709,7 +245,7 @@ static inline void friction_tunable_init(friction_tunable *self) {
   self->spring_2_carried_stiffness = 2000.0;
   self->friction_yield = 1.5;
   self->spring_2_answer = 2000.0;
-  self->spring_2_give = 0.0005;
+  self->spring_2_given_way = -0.0005;
   friction_tunable_reset(self, 0);
   self->sampled = 0;
 }
@@ -720,22 +256,16 @@ static inline dashpot_command friction_tunable_output(friction_tunable *self, do
   dashpot_command command;
   // Δu = u − u₋
   const double position_change = position - self->last_position;
-  // f and every block's δ, by curves, signs and numbers
-  // kind, children, slips, place, first corner, stiffness, compliance, yield force
-  const friction_tunable_node friction_tunable_coupled_friction[3] = {
-      {friction_tunable_series, 1, 2, 1, 0, 0, 0.0, 0.0, 0.0},
-      {friction_tunable_block, 0, 0, 0, 0, 0, self->spring_2_answer, self->spring_2_give, 0.0},
-      {friction_tunable_slip, 0, 0, 1, 0, 4, 0.0, 0.0, self->friction_yield},
-  };
-  const double coupled_friction_held[1] = {self->spring_2_held};
-  double coupled_friction_elongation[1] = {0};
-  int coupled_friction_sign[1] = {0};
-  friction_tunable_part_state coupled_friction_parts[3] = {{0, 0, 0, 0, 0, 0, 0, 0}};
-  friction_tunable_corner coupled_friction_corners[8] = {{0, 0, 0}}, coupled_friction_merged[4] = {{0, 0, 0}};
-  const friction_tunable_tree coupled_friction_tree = {friction_tunable_coupled_friction, 3, coupled_friction_parts, coupled_friction_corners, coupled_friction_merged};
-  const double slips_force = friction_tunable_tree_step(&coupled_friction_tree, position_change,
-      coupled_friction_held, coupled_friction_elongation, coupled_friction_sign);
-  const double spring_2_stretched = coupled_friction_elongation[0];
+  // t, the slip's force if it held
+  const double friction_trial = self->spring_2_answer * position_change + self->spring_2_held;
+  // s = clamp(t, ±Y)
+  const double friction_force = dashpot_clamp_to(self->friction_yield, friction_trial);
+  // r = t − s
+  const double friction_excess = friction_trial - friction_force;
+  // δ of the block
+  const double spring_2_stretched = position_change + self->spring_2_given_way * friction_excess;
+  // f
+  const double slips_force = friction_force;
   // m = f − b u̇
   const double force = self->step_stiffness * position_change + self->held_force + slips_force +
       self->velocity_gain * velocity;
@@ -798,8 +328,8 @@ static inline unsigned friction_tunable_set_values(friction_tunable *self, const
   clamped |= friction_tunable_take_value(&friction_tunable_ranges[1], wanted[1], &self->presliding) << 1;
   clamped |= friction_tunable_take_value(&friction_tunable_ranges[2], wanted[2], &self->drag) << 2;
   const double zero = 0.0;  // nothing [1]
-  const double friction_least_yield = 2.980232238769531e-07;  // Y, no less whatever the parameters are [N]
   const double spring_2_least_answer = 0.0002980232238769531;  // g, no less whatever the parameters are [N/m]
+  const double friction_least_yield = 2.980232238769531e-07;  // Y, no less whatever the parameters are [N]
   const double one = 1.0;  // one [1]
   const double two = 2.0;  // two [1]
   const double minus_one = -1.0;  // minus one [1]
@@ -808,7 +338,8 @@ static inline unsigned friction_tunable_set_values(friction_tunable *self, const
   self->friction_yield = (self->yield - friction_least_yield > 0) ? self->yield : friction_least_yield;
   self->spring_2_answer = (self->presliding - spring_2_least_answer > 0) ? self->presliding :
       spring_2_least_answer;
-  self->spring_2_give = (self->spring_2_answer > 0) ? one / self->spring_2_answer : zero;
+  const double friction_moved_1 = one / self->spring_2_answer;
+  self->spring_2_given_way = zero - friction_moved_1;
   // b follows damper_3
   self->steady_brake = self->drag;
   // b∞ − b

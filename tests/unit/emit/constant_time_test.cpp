@@ -92,7 +92,7 @@ std::vector<std::string> networks(const std::filesystem::path& folder) {
   for (const char* name : {"second_order_maxwell", "visco_elasto_plastic", "visco_elasto_plastic_organ",
                            "maxwell_slip_ten", "virtual_wall"})
     files.push_back(fmt::format(DASHPOT_NETWORKS "/paper/{}.json", name));
-  for (const char* name : {"second_order_maxwell", "standard_solid"})
+  for (const char* name : {"second_order_maxwell", "standard_solid", "friction"})
     files.push_back(fmt::format(DASHPOT_NETWORKS "/tunable/{}_tunable.json", name));
   return files;
 }

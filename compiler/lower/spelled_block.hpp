@@ -1,0 +1,18 @@
+// What joins two ends without a slip, while parameters change.
+#pragma once
+
+#include <string>
+
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+// Block 0 joins tool, or surface, and ground.
+struct SpelledBlock {
+  std::string name;
+  ExpressionId stiffness = {};    // g, in set(); none where it has none [N/m]
+  ExpressionId feedthrough = {};  // b∞, tuned; none where it has none [N·s/m]
+  VariableId held = {};           // π, a state; none of dampers alone [N]
+};
+
+}  // namespace dashpot::compiler

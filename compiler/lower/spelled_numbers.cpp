@@ -41,11 +41,9 @@ ExpressionId SpelledNumbers::named(const std::string& name, const std::string& u
 }
 
 ExpressionId SpelledNumbers::constant(const std::string& name, const std::string& unit, const std::string& meaning,
-                                      double value) {
+                                      double value, ConstantRole role) {
   const auto [known, is_new] = constants_.emplace(name, ExpressionId());
-  if (is_new)
-    known->second = writer_.constant(writer_.unique(name), unit, meaning, value,
-                                     value == 0 ? ConstantRole::zero : ConstantRole::brake_choice);
+  if (is_new) known->second = writer_.constant(writer_.unique(name), unit, meaning, value, role);
   return known->second;
 }
 

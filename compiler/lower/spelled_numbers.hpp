@@ -27,7 +27,8 @@ class SpelledNumbers {
   VariableId local(const std::string& name, const std::string& unit, ExpressionId value, std::string purpose);
   // The value itself where that is a variable or a constant, else a local that has it.
   ExpressionId named(const std::string& name, const std::string& unit, ExpressionId value);
-  ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, double value);
+  ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, double value,
+                        ConstantRole role = ConstantRole::brake_choice);
   ExpressionId zero() { return writer_.constant("zero", "1", "nothing", 0, ConstantRole::zero); }
   ExpressionId one() { return writer_.constant("one", "1", "one", 1); }
 

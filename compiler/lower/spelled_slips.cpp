@@ -167,8 +167,9 @@ ExpressionId SpelledSlips::yield_of(std::size_t slip, const std::vector<Expressi
     const ExpressionId cut = numbers[place(tables_.cuts[place(i)])];
     weakest = weakest == nothing ? cut : least_of(cut, weakest);
   }
-  const ExpressionId least = numbers_.constant(joined(tables_.slip_names[slip], "least_yield"), writer_.force(),
-                                               "Y, no less whatever the parameters are", yield.least);
+  const ExpressionId least =
+      numbers_.constant(joined(tables_.slip_names[slip], "least_yield"), writer_.force(),
+                        "Y, no less whatever the parameters are", yield.least, ConstantRole::yield);
   return largest_of(weakest, least);
 }
 
@@ -192,7 +193,7 @@ ExpressionId SpelledSlips::bounded_stiffness(std::size_t block) {
   const ExpressionId g = blocks_[block].stiffness;
   const ExpressionId least =
       numbers_.constant(joined(name, "least_answer"), writer_.stiffness(), "g, no less whatever the parameters are",
-                        tables_.blocks[block].least_stiffness);
+                        tables_.blocks[block].least_stiffness, ConstantRole::spring_stiffness);
   return g == nothing ? least : largest_of(g, least);
 }
 

@@ -348,11 +348,9 @@ Pool constants_of_tunables(const ReferenceTunables& tunables, const Network& net
     pool["yields"].push_back(least * largest.value());
   }
   const Reference offset_time("0.1");  // [s], in which a rest length goes home
-  const bool is_double = facts.scalar == ScalarType::float64;
   const Reference period = 1 / Reference(facts.rate);
-  pool["tables"] = {facts.rate, exp(-period / offset_time), is_double ? 0x1p-200 : 0x1p-60, 0};
-  if (network.contact)
-    pool["tables"].push_back(network.contact->at), pool[literals_in_code].push_back(network.contact->at);
+  pool["retention"] = {exp(-period / offset_time)};
+  if (network.contact) pool[literals_in_code].push_back(network.contact->at);
   return pool;
 }
 

@@ -19,9 +19,6 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
       pool_(constants_of_tunables(tunables_, compiled.network, facts_)) {
   const TunableTables& tables = *compiled.law.tunable;
   const TunableHead& head = tables.head;
-  for (const double chosen : {head.contact.encoder_step, head.slip_rule.hysteresis, head.slip_rule.coil_share,
-                              head.motor_limit, head.motor_step, head.map.largest_change, head.map.largest_stiffness})
-    pool_["tables"].push_back(chosen);
   pool_["numbers"].push_back(tables.numbers[std::size_t(tables.brake.observed)].base);
   const UpdateLaw& law = compiled.law;
   for (const Coefficient& constant : law.coefficients) add_pool_of(constant);
@@ -31,8 +28,28 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
   pool_["surface_at"] = {compiled.network.map ? compiled.network.map->start : head.contact.at};
   pool_["encoder_step"] = {head.contact.encoder_step};
   pool_["none"] = {0};
+  add_literals(law);
+}
+
+// What a new law has, and the tables of its slips: yield forces to either side, by the network where no parameter
+// changes them.
+void TunableVerification::add_literals(const UpdateLaw& law) {
+  std::vector<Reference>& pool = pool_[literals_in_code];
   for (const Variable& variable : law.variables)
-    if (variable.is_kept()) pool_[literals_in_code].push_back(variable.rest_value);
+    if (variable.is_kept()) pool.push_back(variable.rest_value);
+  const auto add_yield = [&](VariableId tuned, double constant) {
+    if (tuned != no_variable) return pool.push_back(-Reference(law.variables[tuned].rest_value));
+    for (const Reference& exact : pool_["numbers"])
+      if (is_correctly_rounded(constant, exact, header_.scalar)) pool.insert(pool.end(), {exact, -exact});
+  };
+  for (const Coupling& coupling : law.couplings)
+    for (std::size_t k = 0; k < coupling.tuned.size(); ++k) add_yield(coupling.tuned[k].yield, coupling.nodes[k].yield);
+  for (const SlipNetwork& network : law.networks)
+    for (std::size_t k = 0; k < network.links.size(); ++k) {
+      const slip_link<double>& link = network.links[k];
+      add_yield(network.tuned->yields[k], link.highest);
+      if (link.lowest == 0) pool.push_back(link.highest);  // a contact, which holds whatever pushes
+    }
 }
 
 // By its role: what follows from the network is recomputed from it, what is chosen is compared with a re-emission.
@@ -46,7 +63,10 @@ void TunableVerification::add_pool_of(const Coefficient& constant) {
     case ConstantRole::sampling: pool = {Reference(facts_.rate), 1 / Reference(facts_.rate)}; return;
     case ConstantRole::relaxation_share:
     case ConstantRole::loss: pool = pool_["parts"]; return;
-    default: pool.assign(constant.values.begin(), constant.values.end());
+    case ConstantRole::yield: pool = pool_["yields"]; return;
+    case ConstantRole::spring_stiffness: pool = pool_["blocks"]; return;
+    default:
+      if (pool.empty()) pool.assign(constant.values.begin(), constant.values.end());
   }
 }
 

@@ -18,6 +18,7 @@ class TunableVerification {
 
  private:
   void add_pool_of(const Coefficient& constant);
+  void add_literals(const UpdateLaw& law);
   void compare_ranges(const HeaderConstant& constant);
   void compare_with_pool(const HeaderConstant& constant, const std::vector<Reference>& pool);
   bool covers(double stated, const ReferenceBox& box, const Reference& share) const;

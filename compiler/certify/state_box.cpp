@@ -26,7 +26,7 @@ std::vector<double> extrapolated(const std::vector<double>& x0, const std::vecto
   return limit;
 }
 
-bool is_within(const std::vector<double>& states, const std::vector<double>& box) {
+bool is_in_box(const std::vector<double>& states, const std::vector<double>& box) {
   return std::equal(states.begin(), states.end(), box.begin(), [](double a, double b) { return a <= b; });
 }
 
@@ -80,7 +80,7 @@ std::optional<StateBox> box_by(Magnitudes run, const UpdateLaw& law, int rounds,
     states = extrapolated(states, next, after_steps(run, next, 1));
     const std::vector<double> wide = widened(run, law, states);
     if (!std::all_of(wide.begin(), wide.end(), [](double bound) { return std::isfinite(bound); })) break;
-    if (is_within(after_steps(run, wide, 1), wide)) return named(wide, run.anchors(), law);
+    if (is_in_box(after_steps(run, wide, 1), wide)) return named(wide, run.anchors(), law);
   }
   effort += run.effort();
   return std::nullopt;

@@ -372,7 +372,7 @@ class AxesTest(CommandTest):
         stiff["mechanics"]["damping"] = [f"{least + 0.85 * (most - least)} N m s/rad" for least, most in zip(own, enough)]
         self.write("stiff.json", json.dumps(stiff))
         self.dashpot("compile", "thick.json", "--device", "stiff.json", "-o", "out", status=INPUT_REFUSED)
-        self.assertIn("N·m·s/rad of damping are missing at the joints, more than its brakes can give", refused)
+        self.assertIn("N·m·s/rad of damping are missing at the joints, more than its brakes have left", refused)
 
     def test_brakes_that_would_do(self):
         """Fails if a refusal of two axes does not tell of stronger brakes that would do, or of some that would not, or of far more than

@@ -4,8 +4,7 @@ namespace dashpot::compiler {
 
 ExpressionId SlideMemory::write_output(ExpressionId slides, VariableId position) {
   std::vector<Statement>& output = writer_.law().output;
-  const ExpressionId one = writer_.constant("slid", "1", "a slip that gives way", 1),
-                     none = writer_.constant("held", "1", "a slip that holds", 0);
+  const ExpressionId one = slid(writer_), none = held(writer_);
   const ExpressionId area = writer_.constant("hysteresis_squared", writer_.length() + "²",
                                              "(1.5 steps of the encoder)²", hysteresis_ * hysteresis_);
   const ExpressionId gone = writer_.subtract(writer_.read(position), writer_.read(at_));

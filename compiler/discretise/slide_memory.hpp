@@ -6,6 +6,10 @@
 
 namespace dashpot::compiler {
 
+// What is 1 for a slip that gives way and 0 for one that holds.
+inline ExpressionId slid(LawWriter& writer) { return writer.constant("slid", "1", "a slip that gives way", 1); }
+inline ExpressionId held(LawWriter& writer) { return writer.constant("held", "1", "a slip that holds", 0); }
+
 class SlideMemory {
  public:
   // `hysteresis`: above 0 [m]. `make(what, unit, meaning, role)` gives a variable. The writer outlives this.

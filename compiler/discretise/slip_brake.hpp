@@ -66,8 +66,8 @@ class SlipBrake {
   ExpressionId by_regime(const char* name, const std::string& unit, const char* meaning, ValueOf value_of);
   template <class ValueOf>
   ExpressionId per_place(const char* name, const std::string& unit, const char* meaning, ValueOf value_of);
-  ExpressionId one() { return writer_.constant("slid", "1", "a slip that gives way", 1); }
-  ExpressionId none() { return writer_.constant("held", "1", "a slip that holds", 0); }
+  ExpressionId one() { return slid(writer_); }
+  ExpressionId none() { return held(writer_); }
   VariableId variable(const std::string& what, const std::string& unit, const std::string& meaning, Role role);
 
   LawWriter& writer_;

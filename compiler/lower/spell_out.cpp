@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "discretise/law_writer.hpp"
@@ -253,15 +252,8 @@ class SpellingOut {
     if (block.stiffness != nothing)
       block.stiffness = local_of(joined(block.name, "answer_alone"), writer_.stiffness(), block.stiffness);
     if (index == 0 || through == nothing || !head_.slip_rule.takes_part) return;
-    const bool is_plain = facts_of(law_.expressions[through].operation).operands == 0;
-    const bool is_local = law_.expressions[through].operation == Operation::read &&
-                          law_.variables[law_.expressions[through].variable].role == Role::local;
-    block.feedthrough = through;
-    if (is_plain && !is_local) return;
-    const VariableId kept =
-        numbers_.scalar(joined(block.name, "feedthrough"), writer_.damping(), "b∞ of the block", Role::tuned);
-    assign(kept, through, "");
-    block.feedthrough = read(kept);
+    block.feedthrough =
+        numbers_.tuned(joined(block.name, "feedthrough"), writer_.damping(), "b∞ of the block", through);
   }
 
   // set(), when its numbers are there: the forces of springs once more, and what is held by them.

@@ -31,7 +31,8 @@ bool SpelledLoneSlip::is_held_rigid(std::size_t level) const {
 void SpelledLoneSlip::tune(const std::vector<ExpressionId>& stiffness, ExpressionId yield) {
   yield_ = yield;
   for (std::size_t i = 0; i < path_.size(); ++i)
-    levels_[i].stiffness = told(joined(block_name(i), "answer"), writer_.stiffness(), "g of the block", stiffness[i]);
+    levels_[i].stiffness =
+        numbers_.tuned(joined(block_name(i), "answer"), writer_.stiffness(), "g of the block", stiffness[i]);
   tune_held();
   tune_given();
 }
@@ -50,14 +51,14 @@ void SpelledLoneSlip::tune_held() {
     const std::string name = joined(block_name(i), "with_what_follows");
     const ExpressionId both = writer_.add(level.stiffness, levels_[i + 1].held);
     if (path_[i].is_series) {
-      level.inverse = told(joined(name, "gives"), writer_.compliance(), "1/Σ g of the block and what follows",
-                           writer_.divide(numbers_.one(), both));
+      level.inverse = numbers_.tuned(joined(name, "gives"), writer_.compliance(), "1/Σ g of the block and what follows",
+                                     writer_.divide(numbers_.one(), both));
       const ExpressionId product = writer_.multiply(level.stiffness, levels_[i + 1].held);
       if (i > first)
-        level.held = told(joined(name, "answer"), writer_.stiffness(), "g while the slip holds",
-                          writer_.multiply(product, level.inverse));
+        level.held = numbers_.tuned(joined(name, "answer"), writer_.stiffness(), "g while the slip holds",
+                                    writer_.multiply(product, level.inverse));
     } else if (i > first) {
-      level.held = told(joined(name, "answer"), writer_.stiffness(), "g while the slip holds", both);
+      level.held = numbers_.tuned(joined(name, "answer"), writer_.stiffness(), "g while the slip holds", both);
     }
   }
 }
@@ -80,8 +81,8 @@ void SpelledLoneSlip::tune_given() {
     moved = numbers_.named(joined(name_, fmt::format("moved_{}", i + 1)), writer_.compliance(), moved);
     Numbers& level = levels_[i];
     const auto given = [&](ExpressionId value) {
-      return told(joined(block_name(i), "given_way"), writer_.compliance(),
-                  "δ for each newton that the slip does not hold", value);
+      return numbers_.tuned(joined(block_name(i), "given_way"), writer_.compliance(),
+                            "δ for each newton that the slip does not hold", value);
     };
     if (!path_[i].is_series) {
       level.given = given(moved);
@@ -174,17 +175,6 @@ ExpressionId SpelledLoneSlip::elongation(std::size_t block) {
     if (path_[i].block == block)
       return levels_[i].stretched == nothing ? ExpressionId(nothing) : writer_.read(writer_.kept(levels_[i].stretched));
   return nothing;
-}
-
-ExpressionId SpelledLoneSlip::told(const std::string& name, const std::string& unit, const std::string& meaning,
-                                   ExpressionId value) {
-  const Expression& e = writer_.law().expressions[value];
-  const bool is_there = e.operation == Operation::constant ||
-                        (e.operation == Operation::read && writer_.law().variables[e.variable].role == Role::tuned);
-  if (is_there) return value;
-  const VariableId variable = numbers_.scalar(name, unit, meaning, Role::tuned);
-  numbers_.assign(variable, value, "");
-  return writer_.read(variable);
 }
 
 ExpressionId SpelledLoneSlip::local(const std::string& name, const std::string& unit, ExpressionId value,

@@ -32,6 +32,7 @@ class SpelledLoneSlip {
         name_(std::move(name)),
         levels_(path_.size()) {}
 
+  const Path& path() const { return path_; }
   // In set(): by g of the block of each level, no less than 0, and the slip's yield force.
   void tune(const std::vector<ExpressionId>& stiffness, ExpressionId yield);
   // In output(): assigns the force that opposes the tool. Returns a number above zero where the slip gives way.
@@ -58,7 +59,6 @@ class SpelledLoneSlip {
   ExpressionId held_force(std::size_t level);
   ExpressionId block_force(std::size_t level, ExpressionId stretched);
   ExpressionId pi(std::size_t level) const;
-  ExpressionId told(const std::string& what, const std::string& unit, const std::string& meaning, ExpressionId value);
   ExpressionId local(const std::string& what, const std::string& unit, ExpressionId value, const char* purpose);
   ExpressionId times(ExpressionId a, ExpressionId b);
   ExpressionId minus(ExpressionId a, ExpressionId b);

@@ -51,9 +51,7 @@ SpelledMesh::Conductances SpelledMesh::joined_up(const Row& of_edges) const {
 ExpressionId SpelledMesh::told(const std::string& name, const char* unit, ExpressionId value, bool is_kept) {
   if (value == nothing) return nothing;
   if (!is_kept) return numbers_.named(name, unit, value);
-  const VariableId variable = numbers_.scalar(name, unit, "of a mesh's elimination", Role::tuned);
-  numbers_.assign(variable, value, "");
-  return writer_.read(variable);
+  return writer_.read(numbers_.told(name, unit, "of a mesh's elimination", value));
 }
 
 // 1/Σ g, and 0 where nothing holds the node.

@@ -40,6 +40,21 @@ ExpressionId SpelledNumbers::named(const std::string& name, const std::string& u
   return writer_.read(local(name, unit, value, ""));
 }
 
+VariableId SpelledNumbers::told(const std::string& name, const std::string& unit, const std::string& meaning,
+                                ExpressionId value) {
+  const VariableId variable = scalar(name, unit, meaning, Role::tuned);
+  assign(variable, value, "");
+  return variable;
+}
+
+ExpressionId SpelledNumbers::tuned(const std::string& name, const std::string& unit, const std::string& meaning,
+                                   ExpressionId value) {
+  const Expression& e = writer_.law().expressions[value];
+  const bool is_there = e.operation == Operation::constant ||
+                        (e.operation == Operation::read && writer_.law().variables[e.variable].role == Role::tuned);
+  return is_there ? value : writer_.read(told(name, unit, meaning, value));
+}
+
 ExpressionId SpelledNumbers::constant(const std::string& name, const std::string& unit, const std::string& meaning,
                                       double value, ConstantRole role) {
   const auto [known, is_new] = constants_.emplace(name, ExpressionId());

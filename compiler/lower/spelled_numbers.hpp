@@ -27,6 +27,10 @@ class SpelledNumbers {
   VariableId local(const std::string& name, const std::string& unit, ExpressionId value, std::string purpose);
   // The value itself where that is a variable or a constant, else a local that has it.
   ExpressionId named(const std::string& name, const std::string& unit, ExpressionId value);
+  // In set(): a number that it leaves for the other programs; and the value itself where that is constant or such a
+  // number already.
+  VariableId told(const std::string& name, const std::string& unit, const std::string& meaning, ExpressionId value);
+  ExpressionId tuned(const std::string& name, const std::string& unit, const std::string& meaning, ExpressionId value);
   ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, double value,
                         ConstantRole role = ConstantRole::brake_choice);
   ExpressionId zero() { return writer_.constant("zero", "1", "nothing", 0, ConstantRole::zero); }

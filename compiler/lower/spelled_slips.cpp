@@ -38,7 +38,7 @@ void SpelledSlips::declare(const TunableCoupling& table) {
   const std::size_t first_block = place(table.first_block), first_slip = place(table.first_slip);
   std::vector<slip_node<double>> nodes = part_of(tables_.nodes, table.first_node, table.node_count);
   if (const auto path = is_pushed() ? std::nullopt : SpelledLoneSlip::path_of(nodes, first_block)) {
-    lone_.push_back({SpelledLoneSlip(numbers_, blocks_, *path, tables_.slip_names[first_slip]), std::move(nodes), *path,
+    lone_.push_back({SpelledLoneSlip(numbers_, blocks_, *path, tables_.slip_names[first_slip]), std::move(nodes),
                      first_block, first_slip});
     return;
   }
@@ -111,11 +111,10 @@ void SpelledSlips::tune(const std::vector<ExpressionId>& numbers) {
 
 void SpelledSlips::tune(Lone& lone, const std::vector<ExpressionId>& numbers) {
   std::vector<ExpressionId> stiffness;
-  for (const SpelledLoneSlip::Level& level : lone.path) stiffness.push_back(bounded_stiffness(level.block));
+  for (const SpelledLoneSlip::Level& level : lone.step.path()) stiffness.push_back(bounded_stiffness(level.block));
   const ExpressionId yield = yield_of(lone.slip, numbers);
-  lone.step.tune(stiffness, constant_in(yield) ? yield
-                                               : writer_.read(told(joined(tables_.slip_names[lone.slip], "yield"),
-                                                                   writer_.force(), "Y", yield)));
+  lone.step.tune(stiffness,
+                 numbers_.tuned(joined(tables_.slip_names[lone.slip], "yield"), writer_.force(), "Y", yield));
 }
 
 // With every slip giving way: of a block g, of a slip 0, in parallel the sum, in series the inverse of Σ 1/g.
@@ -152,10 +151,11 @@ void SpelledSlips::tune_end(Tree& tree, std::size_t k, std::vector<ExpressionId>
   if (sum == nothing || (is_series && is_flat)) return;
   if (is_series) sum = writer_.where(is_stiff, writer_.divide(numbers_.one(), inverse), numbers_.zero());
   TunedNode& tuned = tree.coupling.tuned[k];
-  tuned.stiffness = told(joined(name, "answer"), writer_.stiffness(), "g of a part whose slips give way", sum);
+  tuned.stiffness = numbers_.told(joined(name, "answer"), writer_.stiffness(), "g of a part whose slips give way", sum);
   stiffness[k] = writer_.read(tuned.stiffness);
-  tuned.compliance = told(joined(name, "give"), writer_.compliance(), "1/g of it",
-                          writer_.where(stiffness[k], writer_.divide(numbers_.one(), stiffness[k]), numbers_.zero()));
+  tuned.compliance =
+      numbers_.told(joined(name, "give"), writer_.compliance(), "1/g of it",
+                    writer_.where(stiffness[k], writer_.divide(numbers_.one(), stiffness[k]), numbers_.zero()));
   compliance[k] = writer_.read(tuned.compliance);
 }
 
@@ -177,7 +177,7 @@ void SpelledSlips::tune_yield(std::size_t slip, const std::vector<ExpressionId>&
                               VariableId& tuned) {
   const ExpressionId found = yield_of(slip, numbers);
   if (const std::optional<double> fixed = constant_in(found)) constant = *fixed;
-  else tuned = told(joined(tables_.slip_names[slip], "yield"), writer_.force(), "Y", found);
+  else tuned = numbers_.told(joined(tables_.slip_names[slip], "yield"), writer_.force(), "Y", found);
 }
 
 std::optional<double> SpelledSlips::constant_in(ExpressionId value) const {
@@ -220,7 +220,7 @@ void SpelledSlips::tune(Graph& graph, const std::vector<ExpressionId>& numbers) 
   }
   const auto tell = [&](ExpressionId sum, const std::string& what) {
     return sum == nothing ? VariableId(no_variable)
-                          : told(joined(network.name, what), writer_.stiffness(), "g between two ends", sum);
+                          : numbers_.told(joined(network.name, what), writer_.stiffness(), "g between two ends", sum);
   };
   for (std::size_t a = 0; a < ends; ++a) {
     for (std::size_t b = a + 1; b < ends; ++b)
@@ -293,9 +293,9 @@ ExpressionId SpelledSlips::damping_of(const std::vector<ExpressionId>& slides, c
     damping.push_back(i == 0 ? ExpressionId(nothing) : blocks_[i].feedthrough);
   ExpressionId sum = nothing;
   for (const Lone& lone : lone_) {
-    SpelledRegime regime(numbers_,
-                         part_of(damping, static_cast<int>(lone.first_block), static_cast<int>(lone.path.size())),
-                         {slides[lone.slip]});
+    SpelledRegime regime(
+        numbers_, part_of(damping, static_cast<int>(lone.first_block), static_cast<int>(lone.step.path().size())),
+        {slides[lone.slip]});
     sum = writer_.plus(sum, regime.of_tree(lone.nodes, joined(prefix, tables_.slip_names[lone.slip])));
   }
   for (const Tree& tree : trees_) {
@@ -371,13 +371,6 @@ ExpressionId SpelledSlips::elongation(std::size_t block) {
 void SpelledSlips::keep() {
   for (SlideMemory& memory : memories_) memory.write_update();
   if (root_ != nothing) numbers_.assign(root_, writer_.read(writer_.kept(root_now_)), "");
-}
-
-VariableId SpelledSlips::told(const std::string& name, const std::string& unit, const std::string& meaning,
-                              ExpressionId value) {
-  const VariableId variable = numbers_.scalar(name, unit, meaning, Role::tuned);
-  numbers_.assign(variable, value, "");
-  return variable;
 }
 
 // b as far as the brake has it.

@@ -53,7 +53,6 @@ class SpelledSlips {
   struct Lone {
     SpelledLoneSlip step;
     std::vector<slip_node<double>> nodes;
-    SpelledLoneSlip::Path path;
     std::size_t first_block, slip;
   };
 
@@ -74,8 +73,6 @@ class SpelledSlips {
   void write_graph(Graph& graph, VariableId force, ExpressionId change, VariableId surface_change);
   ExpressionId moved(const Graph& graph, int end);
   ExpressionId damping_of(const std::vector<ExpressionId>& slides, const std::string& prefix);
-  // A number that set() leaves for the steps.
-  VariableId told(const std::string& name, const std::string& unit, const std::string& meaning, ExpressionId value);
   ExpressionId within(ExpressionId left, const std::string& name, ExpressionId damping);
   ExpressionId least_of(ExpressionId one, ExpressionId other);
   ExpressionId largest_of(ExpressionId one, ExpressionId other);

@@ -48,7 +48,7 @@ double largest_force(const Compilation& port) {
   double travel = loop.travel;
   if (travel == 0 && network.static_curve) travel = network.static_curve->point.displacement;
   if (travel == 0 && network.valid.displacement) travel = network.valid.displacement->high;
-  if (network.contact) travel = std::max(travel - network.contact->at, 0.0);
+  travel = network.pushed_in(travel);
   double stiffness = to_double(linear.static_stiffness), steepest = 1;
   for (const Mode& mode : linear.modes) stiffness += to_double(mode.stiffness);
   double way = travel;

@@ -100,7 +100,7 @@ std::string push_text(const Compilation& c, const PortUnits& units) {
   StageTimes unseen;
   const std::optional<Compilation> whole = compile(c.network, choices, std::nullopt, told_already, unseen);
   if (!whole) return "";
-  const double at = c.network.contact ? c.network.contact->at : 0;
+  const double at = c.network.surface();
   Evaluation<double> run(whole->law);
   run.reset(at);
   double most = 0;

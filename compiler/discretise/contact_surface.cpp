@@ -20,14 +20,16 @@ void ContactSurface::declare() {
 
 void ContactSurface::write_approach() {
   UpdateLaw& law = writer_.law();
-  if (at_ == 0) {
-    depth_ = law.position;
-  } else {
-    const ExpressionId at = writer_.constant("surface_at", writer_.length(), "where the unloaded surface lies",
-                                             Real(at_), ConstantRole::place);
-    writer_.assign(law.output, depth_, writer_.subtract(writer_.read(law.position), at), "");
-  }
+  if (at_ == 0) depth_ = law.position;
+  else writer_.assign(law.output, depth_, depth_now(), "");
   writer_.assign(law.output, approach_, writer_.subtract(writer_.read(depth_), writer_.read(surface_)), "Δ = u − s₋");
+}
+
+ExpressionId ContactSurface::depth_now() {
+  const ExpressionId position = writer_.read(writer_.law().position);
+  if (at_ == 0) return position;
+  return writer_.subtract(position, writer_.constant("surface_at", writer_.length(), "where the unloaded surface lies",
+                                                     Real(at_), ConstantRole::place));
 }
 
 ExpressionId ContactSurface::none() {
@@ -58,6 +60,16 @@ void ContactSurface::write_surface() {
   writer_.assign(output, gap_, writer_.subtract(writer_.read(change_), writer_.read(approach_)), "gap = s − u");
   const ExpressionId moved = writer_.flush(writer_.add(writer_.read(surface_), writer_.read(change_)));
   writer_.assign(output, now_, writer_.where(writer_.read(gap_), moved, writer_.read(depth_)), "s = s₋ + Δs");
+  write_start();
+}
+
+// reset() finds the surface where a tool at rest has pushed it.
+void ContactSurface::write_start() {
+  UpdateLaw& law = writer_.law();
+  law.started_at =
+      writer_.scalar("pushed_in", writer_.length(), "s, how far the tool has the surface pushed in", Role::local);
+  const ExpressionId depth = depth_now();
+  writer_.assign(law.start, law.started_at, writer_.where(depth, depth, none()), "s = (u − u0)⁺");
 }
 
 void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_damping,

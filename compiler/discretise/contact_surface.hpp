@@ -51,6 +51,8 @@ class ContactSurface {
   void write_command(VariableId opposing, const CommandInTouch& touching);
 
  private:
+  ExpressionId depth_now();
+  void write_start();
   ExpressionId none();
   ExpressionId release_of(VariableId opposing, ExpressionId felt, ExpressionId none);
 

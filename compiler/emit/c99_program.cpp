@@ -599,11 +599,8 @@ class C99Printer {
   }
 
   std::string rest_position() const {
-    const std::string there = law_.started_at != no_variable ? law_.variables[law_.started_at].name
-                              : law_.surface_at
-                                  ? fmt::format("dashpot_pushed_in{}({}, position)", suffix_, number(*law_.surface_at))
-                                  : "position";
-    return finite_or_zero("position", there);
+    return finite_or_zero("position",
+                          law_.started_at != no_variable ? law_.variables[law_.started_at].name : "position");
   }
 
   static const std::string& member(const Variable& variable, std::size_t place) {

@@ -92,7 +92,7 @@ std::vector<Fields> rests_of_ports(const Compilation& c) {
   constexpr int halvings = 6;
   double deepest = 0;
   for (const Compilation& port : c.ports) {
-    const double surface = port.network.contact ? port.network.contact->at : 0;
+    const double surface = port.network.surface();
     if (port.network.map) deepest = std::max(deepest, surface + port.network.map->reach);
   }
   if (deepest == 0) deepest = 0.5;  // of springs alone any will do
@@ -102,8 +102,7 @@ std::vector<Fields> rests_of_ports(const Compilation& c) {
     double force = 0, allowed = 0, steepness = 0;
     bool is_held = true;
     for (const Compilation& port : c.ports) {
-      const std::optional<Contact>& contact = port.network.contact;
-      const double in = contact ? std::max(depth - contact->at, 0.0) : depth;
+      const double in = port.network.pushed_in(depth);
       const RestForce rest = port.network.map ? rest_on_curve(port, in) : rest_on_spring(port, in);
       const bool is_clamped = port.certificate.limits.rule == LimitRule::clamps;
       const double most = is_clamped ? port.certificate.loop.max_force : largest_held(port);
@@ -171,7 +170,7 @@ CodeModel response_test_model(const Compilation& c, const std::string& log1p) {
       112, 0));
   fields["scheme"] = name_of(c.law.scheme);
   fields["rate"] = fmt::format("{:#}", c.rate);
-  fields["start"] = fmt::format("{:#}", c.network.contact ? c.network.contact->at : 0.0);
+  fields["start"] = fmt::format("{:#}", c.network.surface());
   model.lists["rests"] = !c.ports.empty() ? rests_of_ports(c) : c.network.map ? rests_on_curve(c) : rest_on_spring(c);
   for (const char* list : {"closed_forms", "modes", "ramps", "curve", "jumps"}) model.lists[list];
   if (!why_none.empty()) return model;

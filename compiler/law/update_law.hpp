@@ -256,9 +256,8 @@ struct UpdateLaw {
   VariableId position;  // the inputs
   VariableId velocity;
   VariableId rest_position = no_variable;  // the state that reset(p) sets to p, if any; all others become zero
-  std::optional<double>
-      surface_at;  // of a contact: reset(p) sets rest_position to p less this, 0 where that is negative [m]
   VariableId started_at = no_variable;  // the local of `start` that reset() sets rest_position to, if not the position
+  std::optional<double> surface_at;     // of a contact: where the unloaded surface lies [m]
   std::vector<PortStart> starts;        // of several ports, one for each that holds a position
   VariableId mapped = no_variable;      // w of the position, a local of `output`, behind a static curve
   double steepest = 1;                  // w′ at most [1]

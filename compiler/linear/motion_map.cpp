@@ -124,7 +124,7 @@ void measure_slope(const StaticCurve& curve, const Real& stiffness, MotionMap& m
 
 // How far the tool goes beyond the place where the curve begins.
 double reach_of(const Network& network) {
-  const double start = network.contact ? network.contact->at : 0;
+  const double start = network.surface();
   double reach = network.static_curve->point.displacement;
   if (const auto& valid = network.valid.displacement; valid) {
     const double forward = valid->high - start, backward = network.contact ? 0 : start - valid->low;
@@ -192,7 +192,7 @@ std::optional<MotionMap> motion_map(const Network& network, const LinearForm& fo
     diagnostics.report<DiagnosticCode::static_too_bent>(curve.span, most_cubics, 100 * map.static_error);
     return std::nullopt;
   }
-  map.start = network.contact ? network.contact->at : 0;
+  map.start = network.surface();
   measure_slope(curve, *stiffness, map);
   return map;
 }

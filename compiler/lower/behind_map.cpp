@@ -211,12 +211,13 @@ class Mapping {
   // reset() asks where w is.
   void write_start() {
     if (law_.rest_position == no_variable) return;
+    std::vector<Statement> start;
+    std::swap(start, law_.start);
     write_place(law_.start);
     const VariableId mapped = write_value(law_.start);
-    if (!law_.surface_at) return void(law_.started_at = mapped);
-    law_.started_at = local("pushed_in", writer_.length(), "s, how far the tool has the surface pushed in");
-    writer_.assign(law_.start, law_.started_at, writer_.where(writer_.read(mapped), writer_.read(mapped), zero()),
-                   "s = w⁺");
+    each_value(start, [&](ExpressionId value) { return behind(value, mapped); });
+    law_.start.insert(law_.start.end(), start.begin(), start.end());
+    if (law_.started_at == no_variable) law_.started_at = mapped;
   }
 
   UpdateLaw law_;

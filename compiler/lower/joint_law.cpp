@@ -168,7 +168,8 @@ struct Merged {
   Term damping;                   // b
   VariableId stored;
   VariableId rest_position;  // a state, or no_variable
-  std::vector<Statement> output, energy;
+  VariableId started_at;     // a local of `start`, or no_variable where it is w
+  std::vector<Statement> output, energy, start;
 };
 
 class Merging {
@@ -283,10 +284,11 @@ class Merging {
     for (auto [from, to] : {std::pair(&appended.keep, &law_.keep), {&appended.update, &law_.update}})
       to->insert(to->end(), from->begin(), from->end());
     const Term damping = own.brake_changes() ? Term(appended.at(own.brake)) : Term(own.damping);
-    return {appended.at(own.position),  appended.at(own.velocity),
-            appended.at(own.force),     damping,
-            appended.at(own.stored),    appended.at(own.rest_position),
-            std::move(appended.output), std::move(appended.energy)};
+    return {appended.at(own.position),   appended.at(own.velocity),
+            appended.at(own.force),      damping,
+            appended.at(own.stored),     appended.at(own.rest_position),
+            appended.at(own.started_at), std::move(appended.output),
+            std::move(appended.energy),  std::move(appended.start)};
   }
 
   Pair<Term> inputs(const std::vector<VariableId>& ids) const { return {Term(ids[0]), Term(ids[1])}; }
@@ -442,16 +444,15 @@ class Merging {
     std::vector<std::pair<std::size_t, Term>> starts;
     for (std::size_t i = 0; i < ports_.size(); ++i) {
       if (merged_[i].rest_position == no_variable) continue;
-      Term start = depth_of(ports_[i], pose.tip).value;
-      if (const std::optional<double>& at = ports_[i].law.surface_at) start = max(start - Term(*at), Term(0.0));
+      const Term start = depth_of(ports_[i], pose.tip).value;
       terms.count(start);
       starts.emplace_back(i, start);
     }
     for (const auto& [i, start] : starts) {
-      const VariableId local =
-          writer.scalar(writer.unique(joined(ports_[i].name, "start")), "m", "w where reset() is", Role::local);
-      terms.assign(law_.start, local, start, "");
-      law_.starts.push_back({merged_[i].rest_position, local});
+      const Merged& port = merged_[i];
+      terms.assign(law_.start, port.position, start, "w of port " + ports_[i].name);
+      law_.start.insert(law_.start.end(), port.start.begin(), port.start.end());
+      law_.starts.push_back({port.rest_position, port.started_at != no_variable ? port.started_at : port.position});
     }
   }
 

@@ -138,24 +138,8 @@ class InParallel {
     const UpdateLaw& own = ports_[i].law;
     if (own.rest_position == no_variable) return;
     law_.start.insert(law_.start.end(), appended_[i].start.begin(), appended_[i].start.end());
-    VariableId value = law_.position;
-    if (own.started_at != no_variable) value = appended_[i].at(own.started_at);
-    else if (own.surface_at) value = pushed_in(ports_[i].name, *own.surface_at);
-    law_.starts.push_back({appended_[i].at(own.rest_position), value});
-  }
-
-  VariableId pushed_in(const std::string& port, double surface_at) {
-    ExpressionId depth = writer_.read(law_.position);
-    if (surface_at != 0)
-      depth = writer_.subtract(
-          depth, writer_.constant(joined(port, "surface_at"), writer_.length(), "where the unloaded surface lies",
-                                  Real(surface_at), ConstantRole::place));
-    const VariableId in = writer_.scalar(writer_.unique(joined(port, "pushed_in")), writer_.length(),
-                                         "s, how far the tool has the surface pushed in", Role::local);
-    const ExpressionId zero =
-        writer_.constant("untouched", writer_.length(), "of a surface at rest", 0, ConstantRole::zero);
-    writer_.assign(law_.start, in, writer_.where(depth, depth, zero), "s = (u − u0)⁺");
-    return in;
+    const VariableId started_at = appended_[i].at(own.started_at);
+    law_.starts.push_back({appended_[i].at(own.rest_position), started_at == no_variable ? law_.position : started_at});
   }
 
   const std::vector<ParallelPort>& ports_;

@@ -127,10 +127,9 @@ WorkspaceMap map_to_drag_through(const AxesCompilation& c) {
 Pair<double> held_force(const AxesCompilation& c, const Pair<double>& tip) {
   Pair<double> force{0, 0};
   for (std::size_t i = 0; i < c.ports.size(); ++i) {
-    const auto depth = axes::depth(c.network.ports[i].map, tip);
-    const auto& contact = c.network.ports[i].network.contact;
-    const double way = contact ? std::max(0.0, depth.value - contact->at) : depth.value;
-    const double pushed = to_double(c.ports[i].form.linear.static_stiffness) * way;
+    const auto& port = c.network.ports[i];
+    const auto depth = axes::depth(port.map, tip);
+    const double pushed = to_double(c.ports[i].form.linear.static_stiffness) * port.network.pushed_in(depth.value);
     for (std::size_t k = 0; k < 2; ++k) force[k] -= pushed * depth.gradient[k];
   }
   return force;

@@ -30,8 +30,7 @@ struct Oscillation {
 
 Oscillation oscillation(const Compilation& c, double amplitude, double frequency) {
   const double samples = std::round(std::clamp(c.rate / frequency, least_samples, most_samples));
-  return {amplitude, static_cast<std::size_t>(samples), c.rate / samples,
-          c.network.contact ? c.network.contact->at : 0};
+  return {amplitude, static_cast<std::size_t>(samples), c.rate / samples, c.network.surface()};
 }
 
 LawRun run(const Compilation& c, const Oscillation& motion, std::size_t cycle_count = cycles) {

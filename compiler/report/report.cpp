@@ -127,7 +127,7 @@ double live_duration(const Compilation& c) {
 // range.
 double live_depth(const Compilation& c, double amplitude) {
   double depth = c.form.has_slips() ? 2 * amplitude : amplitude;
-  const double surface = c.network.contact ? c.network.contact->at : 0;
+  const double surface = c.network.surface();
   if (const auto& range = c.network.valid.displacement; range && range->high > surface)
     depth = std::min(depth, range->high - surface);
   return std::strtod(fmt::format("{:.2g}", depth).c_str(), nullptr);

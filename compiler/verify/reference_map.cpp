@@ -52,7 +52,7 @@ class Curve {
 };
 
 Reference reach_of(const Network& network) {
-  const Reference start = network.contact ? network.contact->at : 0.0;
+  const Reference start = network.surface();
   Reference reach = network.static_curve->point.displacement;
   if (!network.valid.displacement) return reach;
   const double forward = network.valid.displacement->high - start.convert_to<double>();

@@ -107,7 +107,6 @@ class Constants {
   void add_contact(const ReferenceTree& tree, const Network& network) {
     add("feedthrough", tree.linear.feedthrough_damping);
     add("feedthrough_stiffness", -tree.linear.feedthrough_damping * Reference(facts_.rate));
-    add(literals_in_code, network.contact->at);
     if (!tree.has_slips()) add_recovery(companion(tree.linear, facts_));
     else if (tree.networks.empty()) add_table(whole_of(tree));
     else add_network(reference_network(network, elements_behind_slips(tree)), &tree.linear);

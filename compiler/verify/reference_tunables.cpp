@@ -350,7 +350,6 @@ Pool constants_of_tunables(const ReferenceTunables& tunables, const Network& net
   const Reference offset_time("0.1");  // [s], in which a rest length goes home
   const Reference period = 1 / Reference(facts.rate);
   pool["retention"] = {exp(-period / offset_time)};
-  if (network.contact) pool[literals_in_code].push_back(network.contact->at);
   return pool;
 }
 

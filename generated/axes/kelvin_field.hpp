@@ -102,13 +102,15 @@ class kelvin_field {
         part_8 * part_8)) - quarter);
     // position of the tip, x
     const scalar tip_x = half * part_6 - part_8 * part_9 - part_3 - half_base;
-    const scalar across_start = tip_x;
+    // w of port across
+    const scalar across_position = tip_x;
     // position of the tip, y
     const scalar tip_y = part_7 + (half * part_8 + part_6 * part_9);
-    const scalar out_start = tip_y - out_offset;
-    across_last_position_ = dashpot::all_finite(across_start) ? across_start : 0;
+    // w of port out
+    const scalar out_position = tip_y - out_offset;
+    across_last_position_ = dashpot::all_finite(across_position) ? across_position : 0;
     across_sampled_position_ = 0;
-    out_last_position_ = dashpot::all_finite(out_start) ? out_start : 0;
+    out_last_position_ = dashpot::all_finite(out_position) ? out_position : 0;
     out_sampled_position_ = 0;
     sampled_damping_1_ = 0;
     sampled_damping_2_ = 0;

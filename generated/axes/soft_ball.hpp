@@ -106,9 +106,12 @@ class soft_ball {
     // position of the tip, y
     const scalar tip_y = part_7 + (half * part_8 + part_6 * part_9);
     const scalar part_10 = tip_y - ball_centre_y;
-    const scalar part_11 = ball_radius - dashpot::square_root(tip_x * tip_x + part_10 * part_10 + blunting_squared);
-    const scalar ball_start = part_11 > 0 ? part_11 : nothing;
-    ball_surface_ = dashpot::all_finite(ball_start) ? ball_start : 0;
+    // w of port ball
+    const scalar ball_position = ball_radius - dashpot::square_root(tip_x * tip_x + part_10 * part_10 +
+        blunting_squared);
+    // s = (u − u0)⁺
+    const scalar ball_pushed_in = ball_position > 0 ? ball_position : ball_none;
+    ball_surface_ = dashpot::all_finite(ball_pushed_in) ? ball_pushed_in : 0;
     ball_spring_3_damper_4_force_ = 0;
     ball_sampled_surface_change_ = 0;
     ball_sampled_surface_now_ = 0;

@@ -100,9 +100,11 @@ class viscous_wall {
     // position of the tip, y
     const scalar tip_y = part_3 + (half * part_6 +
         part_7 * dashpot::square_root(distal_link_squared * (one / (part_7 * part_7 + part_6 * part_6)) - quarter));
-    const scalar part_8 = tip_y - wall_offset;
-    const scalar wall_start = part_8 > 0 ? part_8 : nothing;
-    wall_surface_ = dashpot::all_finite(wall_start) ? wall_start : 0;
+    // w of port wall
+    const scalar wall_position = tip_y - wall_offset;
+    // s = (u − u0)⁺
+    const scalar wall_pushed_in = wall_position > 0 ? wall_position : wall_none;
+    wall_surface_ = dashpot::all_finite(wall_pushed_in) ? wall_pushed_in : 0;
     wall_sampled_surface_now_ = 0;
     sampled_damping_1_ = 0;
     sampled_damping_2_ = 0;

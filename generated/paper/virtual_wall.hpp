@@ -53,7 +53,9 @@ class virtual_wall {
 
   // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
-    surface_ = dashpot::all_finite(position, position, position) ? dashpot::pushed_in(0.0, position) : 0;
+    // s = (u − u0)⁺
+    const scalar pushed_in = position > 0 ? position : none;
+    surface_ = dashpot::all_finite(position, position, position) ? pushed_in : 0;
     sampled_brake_ = 0;
     sampled_surface_now_ = 0;
     sampled_ = false;

@@ -65,7 +65,9 @@ class needle_in_liver {
 
   // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
-    surface_ = dashpot::all_finite(position, position, position) ? dashpot::pushed_in(0.0, position) : 0;
+    // s = (u − u0)⁺
+    const scalar pushed_in = position > 0 ? position : none;
+    surface_ = dashpot::all_finite(position, position, position) ? pushed_in : 0;
     B2_K2_force_ = 0;
     presliding_spring_force_ = 0;
     sampled_brake_ = 0;
@@ -153,9 +155,9 @@ class needle_in_liver {
  private:
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar static_stiffness = 62.4;  // k0 [N/m]
+  static constexpr scalar none = 0.0;  // of a free tool [N]
   static constexpr scalar feedthrough_stiffness = -5000.0;  // −b∞/h [N/m]
   static constexpr scalar feedthrough = 5.0;  // b∞ [N·s/m]
-  static constexpr scalar none = 0.0;  // of a free tool [N]
   static constexpr scalar contact_damping = 5.0;  // b while the tool touches [N·s/m]
   static constexpr scalar presliding_stiffness = 1000.0;  // k0 [N/m]
   static constexpr scalar B2_K2_gain = 70.83156667275513;  // a c [N/m]

@@ -231,13 +231,15 @@ static inline void kelvin_field_reset(kelvin_field *self, const double *position
       part_8 * part_8)) - quarter);
   // position of the tip, x
   const double tip_x = half * part_6 - part_8 * part_9 - part_3 - half_base;
-  const double across_start = tip_x;
+  // w of port across
+  const double across_position = tip_x;
   // position of the tip, y
   const double tip_y = part_7 + (half * part_8 + part_6 * part_9);
-  const double out_start = tip_y - out_offset;
-  self->across_last_position = (dashpot_all_finite(across_start, across_start, across_start) != 0) ? across_start : 0.0;
+  // w of port out
+  const double out_position = tip_y - out_offset;
+  self->across_last_position = (dashpot_all_finite(across_position, across_position, across_position) != 0) ? across_position : 0.0;
   self->across_sampled_position = 0.0;
-  self->out_last_position = (dashpot_all_finite(out_start, out_start, out_start) != 0) ? out_start : 0.0;
+  self->out_last_position = (dashpot_all_finite(out_position, out_position, out_position) != 0) ? out_position : 0.0;
   self->out_sampled_position = 0.0;
   self->sampled_damping_1 = 0.0;
   self->sampled_damping_2 = 0.0;

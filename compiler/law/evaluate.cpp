@@ -4,9 +4,100 @@
 #include <dashpot/exponential.hpp>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 
+#include "law/walk.hpp"
+
 namespace dashpot::compiler {
+
+template <class Scalar>
+class Evaluation<Scalar>::Translation {
+ public:
+  Translation(Evaluation& evaluation, Instructions& to) : of_(evaluation), law_(evaluation.law_), to_(to) {}
+
+  void add(const Statement& statement) {
+    if (statement.value == nothing) return add_step(statement, {});
+    if (!statement.assigns()) return add_step(statement, value(statement.value).place);
+    Instruction root = instruction(statement.value);
+    root.count = law_.variables[statement.target].size;
+    root.target = of_.variables_[statement.target.place()];
+    to_.push_back(root);
+  }
+
+  std::size_t room() const { return room_; }  // places between two operations, of the widest statement
+
+ private:
+  void add_step(const Statement& statement, Place given) {
+    Instruction step{Operation::read, 1, 0};
+    step.operands[0] = given;
+    step.solver = &statement;
+    to_.push_back(step);
+  }
+
+  static Place place(std::size_t first, std::size_t count) { return {first, count == 1 ? 0u : 1u}; }
+
+  // Variables and constants stand where they are; an expression that is used twice is worked out once.
+  Value value(ExpressionId id) {
+    const Expression& e = law_.expressions[id];
+    if (e.operation == Operation::read || e.operation == Operation::constant) {
+      const Instruction copy = instruction(id);
+      return {copy.operands[0], copy.count};
+    }
+    if (const auto known = known_.find(id); known != known_.end()) return known->second;
+    Instruction one = instruction(id);
+    one.target = of_.memory_.size() + used_;
+    used_ += one.count;
+    room_ = std::max(room_, used_);
+    to_.push_back(one);
+    return known_.emplace(id, Value{place(one.target, one.count), one.count}).first->second;
+  }
+
+  // Without its target; those of what it works on come first.
+  Instruction instruction(ExpressionId id) {
+    const Expression& e = law_.expressions[id];
+    Instruction one{e.operation, 1, 0};
+    const std::span<const ExpressionId> all = operands(e);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Value operand = value(all[i]);
+      one.operands[i] = operand.place;
+      one.count = std::max(one.count, operand.count);
+    }
+    refer(e, one);
+    return one;
+  }
+
+  void refer(const Expression& e, Instruction& one) const {
+    switch (facts_of(e.operation).refers_to) {
+      case Referent::operands_only: return;
+      case Referent::variable: {
+        const std::size_t size = law_.variables[e.variable].size;
+        one.operands[0] = place(of_.variables_[e.variable.place()], size);
+        if (e.operation == Operation::sum) one.last = size - 1;
+        else one.count = size;
+        return;
+      }
+      case Referent::coefficient: {
+        const std::size_t size = law_.coefficients[e.coefficient].values.size(),
+                          first = of_.coefficients_[e.coefficient.place()];
+        if (e.operation == Operation::pick) {
+          one.operands[1] = {first, 0};
+          one.last = size - 1;
+          return;
+        }
+        one.operands[0] = place(first, size);
+        one.count = size;
+        return;
+      }
+    }
+  }
+
+  Evaluation& of_;
+  const UpdateLaw& law_;
+  Instructions& to_;
+  std::map<ExpressionId, Value> known_;
+  std::size_t used_ = 0, room_ = 0;
+};
 
 template <class Scalar>
 tunable_range<Scalar> Evaluation<Scalar>::range_of(const Tunable& parameter) {
@@ -16,17 +107,42 @@ tunable_range<Scalar> Evaluation<Scalar>::range_of(const Tunable& parameter) {
 
 template <class Scalar>
 Evaluation<Scalar>::Evaluation(const UpdateLaw& law) : law_(law) {
-  for (const Variable& variable : law.variables)
-    variables_.emplace_back(variable.size, static_cast<Scalar>(variable.rest_value));
+  for (const Variable& variable : law.variables) {
+    variables_.push_back(memory_.size());
+    memory_.insert(memory_.end(), variable.size, static_cast<Scalar>(variable.rest_value));
+  }
   for (const Tunable& parameter : law.parameters()) at(parameter.value)[0] = static_cast<Scalar>(parameter.range.value);
-  for (const Coefficient& coefficient : law.coefficients)
-    coefficients_.emplace_back(coefficient.values.begin(), coefficient.values.end());
+  for (const Coefficient& coefficient : law.coefficients) {
+    coefficients_.push_back(memory_.size());
+    for (const double value : coefficient.values) memory_.push_back(static_cast<Scalar>(value));
+  }
+  translate();
+  lanes_.resize(law.lanes);
   turns_.assign(law.guards.size(), 0);
   for (const Coupling& coupling : law.couplings) solvers_.push_back(solver_of(coupling));
   for (const SlipNetwork& network : law.networks) network_solvers_.push_back(solver_of(network));
-  run(law.tune);
-  run(law.carry);
-  run(law.rest);
+  run(tune_);
+  run(carry_);
+  run(rest_);
+}
+
+template <class Scalar>
+void Evaluation<Scalar>::translate() {
+  std::size_t room = 0;
+  for (const auto& [program, to] : {std::pair(&law_.output, &output_),
+                                    {&law_.keep, &keep_},
+                                    {&law_.update, &update_},
+                                    {&law_.energy, &energy_},
+                                    {&law_.start, &start_},
+                                    {&law_.rest, &rest_},
+                                    {&law_.tune, &tune_},
+                                    {&law_.carry, &carry_}})
+    for (const Statement& statement : *program) {
+      Translation one(*this, *to);
+      one.add(statement);
+      room = std::max(room, one.room());
+    }
+  memory_.resize(memory_.size() + room);
 }
 
 template <class Scalar>
@@ -67,8 +183,7 @@ template <class Scalar>
 void Evaluation<Scalar>::reset(Scalar position) {
   for (const Variable& variable : law_.variables) {
     if (variable.role == Role::tuned) continue;
-    std::vector<Scalar>& places = at(law_.variables.id_of(variable));
-    std::fill(places.begin(), places.end(), static_cast<Scalar>(variable.rest_value));
+    std::fill_n(at(law_.variables.id_of(variable)), variable.size, static_cast<Scalar>(variable.rest_value));
   }
   if (law_.rest_position != no_variable && all_finite(position, position, position))
     at(law_.rest_position)[0] = rest_position(position);
@@ -77,29 +192,27 @@ void Evaluation<Scalar>::reset(Scalar position) {
     start();
   }
   std::fill(turns_.begin(), turns_.end(), 0);
-  run(law_.rest);
+  run(rest_);
   sampled_ = false;
 }
 
 template <class Scalar>
 Scalar Evaluation<Scalar>::rest_position(Scalar position) {
-  if (law_.started_at != no_variable) {
-    at(law_.position)[0] = position;
-    run(law_.start);
-    return at(law_.started_at)[0];
-  }
-  return law_.surface_at ? pushed_in(static_cast<Scalar>(*law_.surface_at), position) : position;
+  if (law_.started_at == no_variable) return position;
+  at(law_.position)[0] = position;
+  run(start_);
+  return at(law_.started_at)[0];
 }
 
 template <class Scalar>
 command<Scalar> Evaluation<Scalar>::output(Scalar position, Scalar velocity) {
   at(law_.position)[0] = position;
   at(law_.velocity)[0] = velocity;
-  run(law_.output);
+  run(output_);
   const Scalar force = at(law_.force)[0];
   sampled_ = all_finite(position, velocity, at(law_.checked())[0]);
   if (!sampled_) return {damping(law_.last_brake), Scalar(0)};
-  run(law_.keep);
+  run(keep_);
   return {damping(law_.brake), force};
 }
 
@@ -120,8 +233,8 @@ unsigned Evaluation<Scalar>::set(const std::vector<Scalar>& values) {
   unsigned clamped = 0;
   for (std::size_t i = 0; i < parameters.size(); ++i)
     clamped |= take_value(range_of(parameters[i]), values[i], at(parameters[i].value)[0]) << i;
-  run(law_.tune);
-  run(law_.carry);
+  run(tune_);
+  run(carry_);
   return clamped;
 }
 
@@ -135,7 +248,7 @@ void Evaluation<Scalar>::reset(const std::vector<Scalar>& positions) {
 
 template <class Scalar>
 void Evaluation<Scalar>::start() {
-  run(law_.start);
+  run(start_);
   for (const PortStart& start : law_.starts)
     at(start.state)[0] = all_finite(at(start.value)[0]) ? at(start.value)[0] : Scalar(0);
 }
@@ -148,11 +261,11 @@ JointCommand<Scalar> Evaluation<Scalar>::step(const std::vector<Scalar>& positio
     at(joints.positions[i])[0] = positions[i];
     at(joints.velocities[i])[0] = velocities[i];
   }
-  run(law_.output);
+  run(output_);
   sampled_ = true;
   for (const auto* checked : {&joints.positions, &joints.velocities, &joints.dampings, &joints.torques})
     for (const VariableId id : *checked) sampled_ = sampled_ && all_finite(at(id)[0]);
-  if (sampled_) run(law_.keep);
+  if (sampled_) run(keep_);
   JointCommand<Scalar> now;
   for (const VariableId id : joints.last_dampings) now.damping.push_back(at(id)[0]);
   for (const VariableId id : joints.torques) now.torque.push_back(sampled_ ? at(id)[0] : Scalar(0));
@@ -165,16 +278,17 @@ void Evaluation<Scalar>::update() {
   if (!sampled_) return;
   sampled_ = false;
   for (std::size_t i = 0; i < law_.guards.size(); ++i) take_turn(law_.guards[i], turns_[i]);
-  run(law_.update);
+  run(update_);
 }
 
 template <class Scalar>
 void Evaluation<Scalar>::take_turn(const GuardInTurn& guard, std::size_t& turn) {
-  std::vector<Scalar>& forces = at(guard.state);
-  for (std::size_t place = turn; place < std::min(turn + guard.places, forces.size()); ++place)
+  Scalar* const forces = at(guard.state);
+  const std::size_t size = law_.variables[guard.state].size;
+  for (std::size_t place = turn; place < std::min(turn + guard.places, size); ++place)
     forces[place] = flush_below(static_cast<Scalar>(law_.flush_threshold), forces[place]);
   turn += guard.places;
-  if (turn >= law_.padded(forces.size())) turn = 0;
+  if (turn >= law_.padded(size)) turn = 0;
 }
 
 template <class Scalar>
@@ -186,39 +300,45 @@ command<Scalar> Evaluation<Scalar>::step(Scalar position, Scalar velocity) {
 
 template <class Scalar>
 Scalar Evaluation<Scalar>::stored_energy() {
-  run(law_.energy);
+  run(energy_);
   return at(law_.stored)[0];
 }
 
 template <class Scalar>
-void Evaluation<Scalar>::run(const std::vector<Statement>& program) {
-  for (const Statement& statement : program)
-    std::visit([&](const auto& step) { take(step, statement); }, statement.step);
+void Evaluation<Scalar>::run(const Instructions& program) {
+  for (const Instruction& instruction : program) {
+    if (instruction.solver == nullptr) {
+      take(instruction);
+      continue;
+    }
+    const Statement& statement = *instruction.solver;
+    const Scalar given = memory_[instruction.operands[0].first];
+    std::visit([&](const auto& step) { take(step, statement, given); }, statement.step);
+  }
 }
 
 template <class Scalar>
-void Evaluation<Scalar>::take(const Assign&, const Statement& statement) {
-  std::vector<Scalar>& target = at(statement.target);
-  for (std::size_t place = 0; place < target.size(); ++place) target[place] = value(statement.value, place);
+void Evaluation<Scalar>::take(const Assign&, const Statement&, Scalar) {
+  throw std::logic_error("evaluate: an assignment that solves for nothing");
 }
 
 template <class Scalar>
-void Evaluation<Scalar>::take(const SolveTree& step, const Statement& statement) {
-  solve(law_.couplings[step.coupling], solvers_[step.coupling.place()], statement);
+void Evaluation<Scalar>::take(const SolveTree& step, const Statement& statement, Scalar given) {
+  solve(law_.couplings[step.coupling], solvers_[step.coupling.place()], statement.target, given);
 }
 
 template <class Scalar>
-void Evaluation<Scalar>::take(const SolveNetwork& step, const Statement& statement) {
-  solve(law_.networks[step.network], network_solvers_[step.network.place()], statement);
+void Evaluation<Scalar>::take(const SolveNetwork& step, const Statement& statement, Scalar given) {
+  solve(law_.networks[step.network], network_solvers_[step.network.place()], statement.target, given);
 }
 
 template <class Scalar>
-void Evaluation<Scalar>::take(const Call&, const Statement&) {
+void Evaluation<Scalar>::take(const Call&, const Statement&, Scalar) {
   throw std::logic_error("evaluate: a call that is not spelled out");
 }
 
 template <class Scalar>
-void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, const Statement& statement) {
+void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, VariableId target, Scalar change) {
   for (std::size_t i = 0; i < coupling.held.size(); ++i)
     solver.held[i] = coupling.held[i] == no_variable ? Scalar(0) : at(coupling.held[i])[0];
   const auto tune = [&](VariableId tuned, Scalar& number) {
@@ -231,11 +351,10 @@ void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, const S
   }
   slip_tree<Scalar> tree(solver.nodes.data(), coupling.node_count(), solver.parts.data(), solver.corners.data(),
                          solver.merged.data());
-  const Scalar change = value(statement.value, 0);
   if (coupling.is_pushed())
-    at(statement.target)[0] = tree.push(change, solver.held.data(), solver.elongation.data(), solver.sign.data(),
-                                        at(coupling.surface_change)[0]);
-  else at(statement.target)[0] = tree.step(change, solver.held.data(), solver.elongation.data(), solver.sign.data());
+    at(target)[0] = tree.push(change, solver.held.data(), solver.elongation.data(), solver.sign.data(),
+                              at(coupling.surface_change)[0]);
+  else at(target)[0] = tree.step(change, solver.held.data(), solver.elongation.data(), solver.sign.data());
   for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
     if (coupling.elongation[i] != no_variable) at(coupling.elongation[i])[0] = solver.elongation[i];
   for (std::size_t i = 0; i < coupling.sign.size(); ++i)
@@ -243,7 +362,7 @@ void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, const S
 }
 
 template <class Scalar>
-void Evaluation<Scalar>::solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement) {
+void Evaluation<Scalar>::solve(const SlipNetwork& network, NetworkSolver& solver, VariableId target, Scalar change) {
   for (std::size_t i = 0; i < network.held.size(); ++i)
     solver.held[i] = network.held[i] == no_variable ? Scalar(0) : at(network.held[i])[0];
   for (std::size_t i = 0; i < network.sign.size(); ++i) solver.sign[i] = static_cast<int>(at(network.last_sign[i])[0]);
@@ -251,8 +370,7 @@ void Evaluation<Scalar>::solve(const SlipNetwork& network, NetworkSolver& solver
   slip_network<Scalar> step(solver.links.data(), network.slip_count(),
                             {solver.between.data(), solver.to_tool.data(), solver.to_ground.data(), through},
                             network.node_count, {solver.group.data(), solver.room.data(), solver.numbers.data()});
-  at(statement.target)[0] =
-      step.step(value(statement.value, 0), solver.held.data(), solver.moved.data(), solver.sign.data());
+  at(target)[0] = step.step(change, solver.held.data(), solver.moved.data(), solver.sign.data());
   for (std::size_t i = 0; i < network.moved.size(); ++i)
     if (network.moved[i] != no_variable) at(network.moved[i])[0] = solver.moved[i];
   for (std::size_t i = 0; i < network.sign.size(); ++i) at(network.sign[i])[0] = static_cast<Scalar>(solver.sign[i]);
@@ -277,49 +395,55 @@ Scalar Evaluation<Scalar>::tune(const SlipNetwork& network, NetworkSolver& solve
 }
 
 template <class Scalar>
-Scalar Evaluation<Scalar>::value(ExpressionId id, std::size_t place) const {
-  const auto there = [place](const std::vector<Scalar>& vector) { return vector[vector.size() == 1 ? 0 : place]; };
-  const Expression& e = law_.expressions[id];
-  // Most operands are leaves, and those need no call.
-  const auto operand = [&](std::size_t i) {
-    const Expression& inner = law_.expressions[e.operands[i]];
-    if (inner.operation == Operation::read) return there(at(inner.variable));
-    if (inner.operation == Operation::constant) return there(at(inner.coefficient));
-    return value(e.operands[i], place);
-  };
+void Evaluation<Scalar>::take(const Instruction& one) {
+  Scalar* const target = memory_.data() + one.target;
+  const Scalar *a = memory_.data() + one.operands[0].first, *b = memory_.data() + one.operands[1].first,
+               *c = memory_.data() + one.operands[2].first;
   const auto flushed = [&](Scalar number) { return flush_below(static_cast<Scalar>(law_.flush_threshold), number); };
-  switch (e.operation) {
-    case Operation::read: return there(at(e.variable));
-    case Operation::constant: return there(at(e.coefficient));
-    case Operation::add: return operand(0) + operand(1);
-    case Operation::subtract: return operand(0) - operand(1);
-    case Operation::multiply: return operand(0) * operand(1);
-    case Operation::divide: return operand(0) / operand(1);
-    case Operation::square_root: return square_root(operand(0));
-    case Operation::mean_decay: return mean_decay(operand(0));
-    case Operation::flush: return flushed(operand(0));
-    case Operation::clamp: return clamp_to(operand(1), operand(0));
-    case Operation::where: return operand(0) > 0 ? operand(1) : operand(2);
-    case Operation::relax: return operand(2) + operand(0) * flushed(operand(1));
-    case Operation::pick: return at(e.coefficient)[static_cast<std::size_t>(operand(0))];
-    case Operation::sum: return sum(e.variable);
+  const auto at_each = [&](const auto& value) {
+    target[0] = value();
+    for (std::size_t i = 1; i < one.count; ++i) {
+      a += one.operands[0].step, b += one.operands[1].step, c += one.operands[2].step;
+      target[i] = value();
+    }
+  };
+  switch (one.operation) {
+    case Operation::read:
+    case Operation::constant: return at_each([&] { return *a; });
+    case Operation::add: return at_each([&] { return *a + *b; });
+    case Operation::subtract: return at_each([&] { return *a - *b; });
+    case Operation::multiply: return at_each([&] { return *a * *b; });
+    case Operation::divide: return at_each([&] { return *a / *b; });
+    case Operation::square_root: return at_each([&] { return square_root(*a); });
+    case Operation::mean_decay: return at_each([&] { return mean_decay(*a); });
+    case Operation::flush: return at_each([&] { return flushed(*a); });
+    case Operation::clamp: return at_each([&] { return clamp_to(*b, *a); });
+    case Operation::where: return at_each([&] { return *a > 0 ? *b : *c; });
+    case Operation::relax: return at_each([&] { return *c + *a * flushed(*b); });
+    case Operation::pick: return at_each([&] { return picked(b, one.last, *a); });
+    case Operation::sum: return at_each([&] { return sum(a, one.last + 1); });
   }
-  return Scalar(0);
+}
+
+// A choice may leave what it does not take with a place that the table does not have.
+template <class Scalar>
+Scalar Evaluation<Scalar>::picked(const Scalar* table, std::size_t last, Scalar place) {
+  if (!(place > 0)) return table[0];
+  return table[place < static_cast<Scalar>(last) ? static_cast<std::size_t>(place) : last];
 }
 
 template <class Scalar>
-Scalar Evaluation<Scalar>::sum(VariableId id) const {
-  const std::vector<Scalar>& vector = at(id);
-  if (!law_.is_rolled(vector.size())) {
+Scalar Evaluation<Scalar>::sum(const Scalar* vector, std::size_t size) {
+  if (!law_.is_rolled(size)) {
     Scalar total = vector[0];
-    for (std::size_t i = 1; i < vector.size(); ++i) total += vector[i];
+    for (std::size_t i = 1; i < size; ++i) total += vector[i];
     return total;
   }
-  std::vector<Scalar> lanes(law_.lanes, Scalar(0));
-  for (std::size_t i = 0; i < vector.size(); ++i) lanes[i % law_.lanes] += vector[i];
+  std::fill(lanes_.begin(), lanes_.end(), Scalar(0));
+  for (std::size_t i = 0; i < size; ++i) lanes_[i % law_.lanes] += vector[i];
   for (std::size_t half = law_.lanes / 2; half > 0; half /= 2)
-    for (std::size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
-  return lanes[0];
+    for (std::size_t i = 0; i < half; ++i) lanes_[i] += lanes_[i + half];
+  return lanes_[0];
 }
 
 template class Evaluation<float>;

@@ -4,6 +4,9 @@
 
 #include <dashpot/command.hpp>
 
+#include <array>
+#include <cstddef>
+#include <map>
 #include <vector>
 
 #include "law/update_law.hpp"
@@ -55,30 +58,58 @@ class Evaluation {
     std::vector<Scalar> room, numbers;
   };
 
+  // A place in the memory, of a scalar or of the first of several.
+  struct Place {
+    std::size_t first = 0;
+    std::size_t step = 0;  // from one to the next: 0 of a scalar, which all read alike
+  };
+
+  // One operation at `count` places, or a solver's step with what operand 0 says.
+  struct Instruction {
+    Operation operation;
+    std::size_t count;
+    std::size_t target;
+    std::array<Place, 3> operands = {};
+    std::size_t last = 0;               // place of a table
+    const Statement* solver = nullptr;  // of such a step
+  };
+  using Instructions = std::vector<Instruction>;
+
+  // What an expression has become: where its value stands once the instructions before have run.
+  struct Value {
+    Place place;
+    std::size_t count;
+  };
+
+  class Translation;  // of one statement into instructions
+
   static tunable_range<Scalar> range_of(const Tunable& parameter);
   static Solver solver_of(const Coupling& coupling);
   static NetworkSolver solver_of(const SlipNetwork& network);
-  void run(const std::vector<Statement>& program);
-  void take(const Assign& step, const Statement& statement);
-  void take(const SolveTree& step, const Statement& statement);
-  void take(const SolveNetwork& step, const Statement& statement);
-  void take(const Call& step, const Statement& statement);
+  void translate();
+  void run(const Instructions& program);
+  void take(const Instruction& instruction);
+  void take(const Assign& step, const Statement& statement, Scalar given);
+  void take(const SolveTree& step, const Statement& statement, Scalar given);
+  void take(const SolveNetwork& step, const Statement& statement, Scalar given);
+  void take(const Call& step, const Statement& statement, Scalar given);
   void take_turn(const GuardInTurn& guard, std::size_t& turn);
-  void solve(const Coupling& coupling, Solver& solver, const Statement& statement);
-  void solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement);
+  void solve(const Coupling& coupling, Solver& solver, VariableId target, Scalar change);
+  void solve(const SlipNetwork& network, NetworkSolver& solver, VariableId target, Scalar change);
   Scalar tune(const SlipNetwork& network, NetworkSolver& solver) const;
   Scalar rest_position(Scalar position);  // of a finite position
   void start();                           // every port, where the inputs are
   Scalar damping(VariableId changing) const;
-  Scalar value(ExpressionId expression, std::size_t place) const;
-  Scalar sum(VariableId vector) const;
-  std::vector<Scalar>& at(VariableId id) { return variables_[id.place()]; }
-  const std::vector<Scalar>& at(VariableId id) const { return variables_[id.place()]; }
-  const std::vector<Scalar>& at(CoefficientId id) const { return coefficients_[id.place()]; }
+  static Scalar picked(const Scalar* table, std::size_t last, Scalar place);
+  Scalar sum(const Scalar* vector, std::size_t size);
+  Scalar* at(VariableId id) { return memory_.data() + variables_[id.place()]; }
+  const Scalar* at(VariableId id) const { return memory_.data() + variables_[id.place()]; }
 
   const UpdateLaw& law_;
-  std::vector<std::vector<Scalar>> variables_;
-  std::vector<std::vector<Scalar>> coefficients_;
+  std::vector<Scalar> memory_;                         // variables, then constants, then what is between two operations
+  std::vector<std::size_t> variables_, coefficients_;  // where each begins
+  Instructions output_, keep_, update_, energy_, start_, rest_, tune_, carry_;
+  std::vector<Scalar> lanes_;       // of a sum
   std::vector<std::size_t> turns_;  // of each guard, the first place that it takes next
   std::vector<Solver> solvers_;     // one a coupling
   std::vector<NetworkSolver> network_solvers_;

@@ -157,10 +157,12 @@ bool settle_tunables(const Network& network, Choices& choices, Diagnostics& diag
   return asked == StateInput::position;
 }
 
-// False, with a diagnostic, where there is a static curve that cannot be had.
+// False, with a diagnostic, where there is a static curve that cannot be had. A network that is compiled once more, for
+// another device, has its map.
 bool put_behind_curve(Network& network, Network& present, const NormalForm& form, Diagnostics& diagnostics) {
   if (!network.static_curve) return true;
-  network.map = present.map = motion_map(present, form.linear, diagnostics);
+  if (!network.map) network.map = motion_map(present, form.linear, diagnostics);
+  present.map = network.map;
   return network.map.has_value();
 }
 

@@ -21,6 +21,7 @@ SlipRuns::SlipRuns(const Compilation& c, const Choices& choices, const PortDevic
     : c_(c),
       choices_(choices),
       device_(device),
+      decomposer_(c.network, c.form, device),
       loop_(sampled_loop(device, 1 / c.rate)),
       gain_(estimate_gain(loop_).value_or(std::numeric_limits<double>::infinity())) {
   for (const SlipLaw law : laws_to_choose_from) {
@@ -33,7 +34,7 @@ SlipRuns::SlipRuns(const Compilation& c, const Choices& choices, const PortDevic
 }
 
 SlipDecomposition SlipRuns::decomposed(const Candidate& beside, const SlipPlan& plan) const {
-  return decompose_slips(c_.network, c_.form, beside, plan, device_);
+  return decomposer_.decomposed(beside, plan);
 }
 
 Compilation SlipRuns::made_with_room(const Candidate& beside, const SlipPlan& plan) {
@@ -56,7 +57,7 @@ std::vector<FeltForce> SlipRuns::felt_of(const UpdateLaw& law) {
   if (!trial_) {
     coarse_ = by_motor(1);
     fine_ = by_motor(SlipTrial::instants_a_sample(device_));
-    trial_.emplace(c_.network, coarse_, fine_, device_, c_.network.contact ? c_.network.contact->at : 0);
+    trial_.emplace(c_.network, coarse_, fine_, device_, c_.network.surface());
   }
   std::vector<FeltForce> felt;
   for (std::size_t m = 0; m < trial_->motions().size(); ++m) felt.push_back(trial_->felt(law, m));

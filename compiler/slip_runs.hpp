@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "certify/sampled_loop.hpp"
+#include "decompose/slip_laws.hpp"
 #include "emit/emission.hpp"
 #include "slip_trial.hpp"
 
@@ -52,6 +53,7 @@ class SlipRuns {
   const Compilation& c_;
   const Choices& choices_;
   const PortDevice& device_;
+  SlipDecomposer decomposer_;
   SampledLoop loop_;
   double gain_;
   std::vector<SlipLaw> laws_;

@@ -1,4 +1,4 @@
-// What decompose_slips() decides, as values.
+// What a SlipDecomposer decides, as values.
 #pragma once
 
 #include <optional>

@@ -13,34 +13,6 @@ PartDecomposer decomposer_of(SlipPart part, const Network& network, const PortDe
   return {std::move(part), device, has_tunables(network), network.contact.has_value()};
 }
 
-ComponentSplit split_of_component(const Network& network, const NormalTree& component, const SlipPlan& plan,
-                                  const PortDevice& device) {
-  SlipPart part{regimes_of(network, component, device.reference_frequency()), {}, {}};
-  const std::vector<SlipElements>& slips = part.regimes.slips;
-  part.sliding = form_in_regime(component, slips, std::vector<bool>(slips.size(), true));
-  const std::optional<NormalTree> gated = without_dampers_beside_slips(component);
-  if (gated)
-    for (const Regime& regime : part.regimes.regimes)
-      part.gated.push_back(form_in_regime(*gated, slips, regime.slides));
-  ComponentSplit split = decomposer_of(std::move(part), network, device).split(plan);
-  split.rendered = split.law == SlipLaw::gated ? *gated : component;
-  return split;
-}
-
-// Slips that meet in no tree.
-ComponentSplit split_of_network(const Network& network, const std::vector<std::size_t>& elements, const SlipPlan& plan,
-                                const PortDevice& device) {
-  SlipPart part{regimes_of(network, elements, device.reference_frequency()), {}, {}};
-  if (!part.regimes.regimes.empty()) part.sliding = part.regimes.regimes.back().form;
-  const std::optional<std::vector<std::size_t>> gated = without_dampers_beside_slips(network, elements);
-  if (gated)
-    for (const Regime& regime : regimes_of(network, *gated, part.regimes.slips, device.reference_frequency()).regimes)
-      part.gated.push_back(regime.form);
-  ComponentSplit split = decomposer_of(std::move(part), network, device).split(plan);
-  split.rendered_elements = split.law == SlipLaw::gated ? *gated : elements;
-  return split;
-}
-
 // With a contact and a part that is no tree, all slips are solved together.
 std::vector<std::vector<std::size_t>> network_parts(const Network& network, const NormalForm& form) {
   if (!network.contact || form.networks.empty()) return form.networks;
@@ -109,24 +81,59 @@ std::optional<SlipLaw> slip_law_asked_for(const Choices& asked) {
   return run_decides ? std::nullopt : std::optional(SlipLaw::velocity_free);
 }
 
-SlipDecomposition decompose_slips(const Network& network, const NormalForm& form, const Candidate& linear_part,
-                                  const SlipPlan& plan, const PortDevice& device) {
-  SlipDecomposition slips;
+SlipDecomposer::SlipDecomposer(const Network& network, const NormalForm& form, const PortDevice& device)
+    : device_(device) {
   if (!network.contact || form.networks.empty())
-    for (const NormalTree& component : form.components)
-      slips.components.push_back(split_of_component(network, component, plan, device));
+    for (const NormalTree& tree : form.components) components_.push_back(component(network, tree, device));
   for (const std::vector<std::size_t>& part : network_parts(network, form))
-    slips.networks.push_back(split_of_network(network, part, plan, device));
-  if (const std::optional<double> most = device.max_damping())
+    networks_.push_back(in_no_tree(network, part, device));
+}
+
+SlipDecomposer::Component SlipDecomposer::component(const Network& network, const NormalTree& tree,
+                                                    const PortDevice& device) {
+  SlipPart part{regimes_of(network, tree, device.reference_frequency()), {}, {}};
+  const std::vector<SlipElements>& slips = part.regimes.slips;
+  part.sliding = form_in_regime(tree, slips, std::vector<bool>(slips.size(), true));
+  std::optional<NormalTree> gated = without_dampers_beside_slips(tree);
+  if (gated)
+    for (const Regime& regime : part.regimes.regimes)
+      part.gated.push_back(form_in_regime(*gated, slips, regime.slides));
+  return {decomposer_of(std::move(part), network, device), tree, std::move(gated)};
+}
+
+SlipDecomposer::InNoTree SlipDecomposer::in_no_tree(const Network& network, const std::vector<std::size_t>& elements,
+                                                    const PortDevice& device) {
+  SlipPart part{regimes_of(network, elements, device.reference_frequency()), {}, {}};
+  if (!part.regimes.regimes.empty()) part.sliding = part.regimes.regimes.back().form;
+  std::optional<std::vector<std::size_t>> gated = without_dampers_beside_slips(network, elements);
+  if (gated)
+    for (const Regime& regime : regimes_of(network, *gated, part.regimes.slips, device.reference_frequency()).regimes)
+      part.gated.push_back(regime.form);
+  return {decomposer_of(std::move(part), network, device), elements, std::move(gated)};
+}
+
+SlipDecomposition SlipDecomposer::decomposed(const Candidate& linear_part, const SlipPlan& plan) const {
+  SlipDecomposition slips;
+  for (const Component& component : components_) {
+    slips.components.push_back(component.decomposer.split(plan));
+    ComponentSplit& split = slips.components.back();
+    split.rendered = component.rendered(split.law);
+  }
+  for (const InNoTree& part : networks_) {
+    slips.networks.push_back(part.decomposer.split(plan));
+    ComponentSplit& split = slips.networks.back();
+    split.rendered_elements = part.rendered(split.law);
+  }
+  if (const std::optional<double> most = device_.max_damping())
     cap(slips.networks, cap(slips.components, std::max(0.0, *most - linear_part.damping - plan.reserve)));
   double span = 0;
   for (const ComponentSplit* split : slips.all()) span += largest_damping(*split);
-  slips.hysteresis = hysteresis_steps * device.encoder_step();
-  slips.coil_share = coil_share(device, std::sqrt(span));
-  slips.assured_share = assured_share(device);
-  slips.make_up = make_up(linear_part, device);
+  slips.hysteresis = hysteresis_steps * device_.encoder_step();
+  slips.coil_share = coil_share(device_, std::sqrt(span));
+  slips.assured_share = assured_share(device_);
+  slips.make_up = make_up(linear_part, device_);
   // Within the hold in which a coil is told something it is not there yet.
-  slips.memory = device.estimate_memory().value_or(0) + (slips.coil_share < 1 ? 1 : 0);
+  slips.memory = device_.estimate_memory().value_or(0) + (slips.coil_share < 1 ? 1 : 0);
   slips.ramp = ramp_of(slips.memory, slips.coil_share);
   return slips;
 }
@@ -186,7 +193,8 @@ std::optional<Decomposition> decompose(const Network& network, const NormalForm&
   const std::optional<PortDevice> port = device ? PortDevice::of(*device, network, diagnostics) : PortDevice::ideal();
   if (!port) return result;
   const SlipLaw law = slip_law_asked_for(choices).value_or(SlipLaw::velocity_free);
-  result->slips = decompose_slips(network, form, result->choice(), {law, 1, port->largest_estimator_gain()}, *port);
+  result->slips =
+      SlipDecomposer(network, form, *port).decomposed(result->choice(), {law, 1, port->largest_estimator_gain()});
   for (ComponentSplit& split : result->slips.components) say_asked_for(split);
   for (ComponentSplit& split : result->slips.networks) say_asked_for(split);
   if (!has_what_was_asked_for(network, result->slips, law, diagnostics)) return std::nullopt;

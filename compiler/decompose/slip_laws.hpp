@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "decompose/decomposition.hpp"
+#include "decompose/part_decomposer.hpp"
 #include "decompose/port_device.hpp"
 #include "decompose/regimes.hpp"
 
@@ -29,11 +30,38 @@ std::string_view name_of(SlipLaw law);
 // The law that a name of --decomposition asks for; none where a run decides. A damping and `virtual`: all by the motor.
 std::optional<SlipLaw> slip_law_asked_for(const Choices& choices);
 
-// In: the network, its normal form, the decomposition of what reaches ground without a slip. Ensures: together with
-// that part no regime asks for more than the brake gives; every feedthrough ≤ b∞ and ≤ b of its regime, every
-// compensation ≤ (1 − ε) (h/T_max) of what b has beyond the largest b∞ of all regimes.
-SlipDecomposition decompose_slips(const Network& network, const NormalForm& form, const Candidate& linear_part,
-                                  const SlipPlan& plan, const PortDevice& device);
+// All parts of a network that are behind slips. What every plan begins with, the regimes, is worked out once.
+class SlipDecomposer {
+ public:
+  // The device outlives this.
+  SlipDecomposer(const Network& network, const NormalForm& form, const PortDevice& device);
+
+  // In: the decomposition of what reaches ground without a slip. Ensures: together with that part no regime asks for
+  // more than the brake gives; every feedthrough ≤ b∞ and ≤ b of its regime, every compensation ≤ (1 − ε) (h/T_max) of
+  // what b has beyond the largest b∞ of all regimes.
+  SlipDecomposition decomposed(const Candidate& linear_part, const SlipPlan& plan) const;
+
+ private:
+  // One of them, and what of it is rendered: all, or without the dampers beside slips.
+  template <class Elements>
+  struct Part {
+    PartDecomposer decomposer;
+    Elements whole;
+    std::optional<Elements> gated;
+
+    const Elements& rendered(SlipLaw law) const { return law == SlipLaw::gated ? *gated : whole; }
+  };
+  using Component = Part<NormalTree>;
+  using InNoTree = Part<std::vector<std::size_t>>;  // slips that meet in no tree
+
+  static Component component(const Network& network, const NormalTree& tree, const PortDevice& device);
+  static InNoTree in_no_tree(const Network& network, const std::vector<std::size_t>& elements,
+                             const PortDevice& device);
+
+  const PortDevice& device_;
+  std::vector<Component> components_;
+  std::vector<InNoTree> networks_;
+};
 
 // Both: what reaches ground without a slip, then the rest by the law asked for, velocity-free where a run has to
 // decide. Warns and refuses as decompose() of linear networks.

@@ -8,6 +8,7 @@
 
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_program.hpp"
+#include "emit/cpp_slips.hpp"
 #include "emit/cpp_tunable.hpp"
 #include "law/expression_text.hpp"
 #include "law/walk.hpp"
@@ -22,8 +23,9 @@ class BatchPrinter {
   CppBatch print() {
     CppBatch batch;
     batch.output = lines_of(law_.output);
-    batch.update = lines_of(read_later(law_.keep));
-    for (std::string& line : lines_of(law_.update)) batch.update.push_back(std::move(line));
+    std::vector<Statement> update = law_.keep;
+    update.insert(update.end(), law_.update.begin(), law_.update.end());
+    batch.update = lines_of(needed_of(update));
     batch.energy = lines_of(law_.energy);
     batch.loads = loads();
     batch.loaded = batch.loads.size();
@@ -56,18 +58,11 @@ class BatchPrinter {
   // of them, is as quickly added up again as it is fetched from memory.
   void find_states() {
     std::set<VariableId> assigned;
-    for (const auto* program : {&law_.output, &law_.keep, &law_.update})
-      for (const Statement& statement : *program) {
-        find_reads(statement.value, assigned, kept_);
-        assigned.insert(statement.target);
-      }
+    for (const auto* program : {&law_.output, &law_.keep, &law_.update}) find_reads(*program, assigned, kept_);
     for (const auto* program : {&law_.energy, &law_.rest})
-      for (const Statement& statement : *program) find_reads(statement.value, {}, kept_);
+      for (const Statement& statement : *program) find_reads(statement, {}, kept_);
     std::set<VariableId> tuned;
-    for (const Statement& statement : set_program(law_)) {
-      find_reads(statement.value, tuned, kept_);
-      tuned.insert(statement.target);
-    }
+    find_reads(set_program(law_), tuned, kept_);
     for (const Tunable& parameter : law_.parameters()) kept_.insert(parameter.value);
     if (law_.last_brake != no_variable) kept_.insert(law_.last_brake);
     for (const Statement& statement : law_.update)
@@ -75,41 +70,51 @@ class BatchPrinter {
         derived_.push_back(&statement);
   }
 
-  // States that the expression reads, but for those that are `assigned`.
-  void find_reads(ExpressionId id, const std::set<VariableId>& assigned, std::set<VariableId>& found) const {
-    each_read(law_, id, [&](VariableId read) {
+  // States that the statement reads, but for those that are `assigned`.
+  void find_reads(const Statement& statement, const std::set<VariableId>& assigned, std::set<VariableId>& found) const {
+    each_read(law_, statement, [&](VariableId read) {
       if (law_.variables[read].is_kept() && assigned.count(read) == 0) found.insert(read);
     });
   }
 
-  // Of what is kept of a sample, what update() or the next sample reads.
-  std::vector<Statement> read_later(const std::vector<Statement>& program) const {
-    std::set<VariableId> read = kept_;
-    for (const Statement& statement : law_.update) find_reads(statement.value, {}, read);
-    std::vector<Statement> later;
-    for (const Statement& statement : program)
-      if (read.count(statement.target) != 0) later.push_back(statement);
-    return later;
+  // The same of a program, whose own assignments come to those that are there.
+  void find_reads(const std::vector<Statement>& program, std::set<VariableId>& assigned,
+                  std::set<VariableId>& found) const {
+    for (const Statement& statement : program) {
+      find_reads(statement, assigned, found);
+      each_assigned(law_, statement, [&](VariableId id) { assigned.insert(id); });
+    }
   }
 
-  bool is_derived(const Statement& statement) const {
-    return std::find(derived_.begin(), derived_.end(), &statement) != derived_.end();
+  // Of a program what the states that are kept follow from, and what reset() sets some to.
+  std::vector<Statement> needed_of(const std::vector<Statement>& program) const {
+    std::set<VariableId> wanted = kept_;
+    wanted.insert(law_.started_at);
+    for (const PortStart& start : law_.starts) wanted.insert(start.value);
+    std::vector<Statement> needed;
+    for (auto statement = program.rbegin(); statement != program.rend(); ++statement) {
+      bool is_needed = false;
+      each_assigned(law_, *statement, [&](VariableId found) { is_needed |= wanted.count(found) != 0; });
+      if (!is_needed) continue;
+      each_read(law_, *statement, [&](VariableId read) { wanted.insert(read); });
+      needed.insert(needed.begin(), *statement);
+    }
+    return needed;
   }
 
-  static std::set<VariableId> assigned_by(std::initializer_list<const std::vector<Statement>*> programs) {
+  std::set<VariableId> assigned_by(std::initializer_list<const std::vector<Statement>*> programs) const {
     std::set<VariableId> assigned;
     for (const std::vector<Statement>* program : programs)
-      for (const Statement& statement : *program) assigned.insert(statement.target);
+      for (const Statement& statement : *program)
+        each_assigned(law_, statement, [&](VariableId id) { assigned.insert(id); });
     return assigned;
   }
 
   // A program of one point between samples, in scalars: what it reads is fetched and what it assigns put back.
-  std::vector<std::string> lines_of_point(const std::vector<Statement>& program, bool sets_parameters = false) {
+  std::vector<std::string> lines_of_point(const std::vector<Statement>& whole, bool sets_parameters = false) {
+    const std::vector<Statement> program = needed_of(whole);
     std::set<VariableId> read, assigned;
-    for (const Statement& statement : program) {
-      find_reads(statement.value, assigned, read);
-      assigned.insert(statement.target);
-    }
+    find_reads(program, assigned, read);
     std::vector<std::string> lines, stores;
     const std::vector<Tunable> parameters = law_.parameters();
     each_state([&](VariableId id, const std::string& state, std::size_t number) {
@@ -153,6 +158,8 @@ class BatchPrinter {
     std::vector<std::string> headers = {"dashpot/command.hpp"};
     if (uses(law_, Operation::mean_decay)) headers.push_back("dashpot/exponential.hpp");
     if (uses(law_, Operation::square_root)) headers.push_back("dashpot/elementary.hpp");
+    if (!law_.networks.empty()) headers.push_back("dashpot/slip_network.hpp");
+    if (!law_.couplings.empty()) headers.push_back("dashpot/slip_tree.hpp");
     if (law_.tunable) headers.push_back("dashpot/tunable_range.hpp");
     headers.push_back("dashpot/vector.hpp");
     return headers;
@@ -170,11 +177,7 @@ class BatchPrinter {
     std::vector<std::string> lines;
     std::set<VariableId> read = assigned_by({&law_.keep, &law_.update}), assigned;
     if (law_.last_brake != no_variable) read.insert(law_.last_brake);
-    for (const auto* program : {&law_.output, &law_.keep, &law_.update})
-      for (const Statement& statement : *program) {
-        find_reads(statement.value, assigned, read);
-        assigned.insert(statement.target);
-      }
+    for (const auto* program : {&law_.output, &law_.keep, &law_.update}) find_reads(*program, assigned, read);
     each_state([&](VariableId id, const std::string& state, std::size_t number) {
       if (read.count(id) == 0) return;
       const Variable& variable = law_.variables[id];
@@ -186,7 +189,7 @@ class BatchPrinter {
 
   std::vector<std::string> energy_loads() const {
     std::set<VariableId> read;
-    for (const Statement& statement : law_.energy) find_reads(statement.value, {}, read);
+    for (const Statement& statement : law_.energy) find_reads(statement, {}, read);
     std::vector<std::string> lines;
     each_state([&](VariableId id, const std::string& state, std::size_t number) {
       if (read.count(id) != 0)
@@ -199,15 +202,39 @@ class BatchPrinter {
     const std::string type = language == Language::vectors ? "const vector " : "const scalar ";
     std::vector<std::string> lines;
     for (const Statement& statement : program) {
-      if (is_derived(statement)) continue;
       const Variable& target = law_.variables[statement.target];
       if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
+      if (!statement.assigns()) {
+        append_solver(statement, lines);
+        continue;
+      }
       const std::string declared = kept_.count(statement.target) != 0 ? "" : type;
       for (std::size_t place = 0; place < target.size; ++place)
         append(lines, fmt::format("{}{} = {};", declared, name(statement.target, place),
                                   expression(statement.value, place, language)));
     }
     return lines;
+  }
+
+  // Solvers take one point after the other: how long each takes is a matter of its values.
+  void append_solver(const Statement& statement, std::vector<std::string>& lines) {
+    each_assigned(law_, statement, [&](VariableId found) {
+      if (kept_.count(found) == 0) lines.push_back(fmt::format("vector {};", name(found, 0)));
+    });
+    const std::string given = name(statement.target, 0) + "_given";
+    append(lines, fmt::format("const vector {} = {};", given, expression(statement.value, 0)));
+    SolverWords words;
+    words.read = [this](VariableId id) { return name(id, 0) + "[lane]"; };
+    words.assignment = [this](VariableId id, const std::string& value) {
+      return fmt::format("{}.put(lane, {});", name(id, 0), value);
+    };
+    words.given = given + "[lane]";
+    words.makes_tables = true;
+    std::vector<std::string> of_one;
+    append_step(law_, statement, words, of_one);
+    lines.push_back("for (int lane = 0; lane < vector::width; ++lane) {");
+    for (const std::string& line : of_one) lines.push_back("  " + line);
+    lines.push_back("}");
   }
 
   std::vector<std::string> commands() const {
@@ -258,9 +285,7 @@ class BatchPrinter {
       if (&law_.variables[start.state] == &variable) return name(start.value, 0);
     if (law_.rest_position == no_variable || &variable != &law_.variables[law_.rest_position])
       return cpp_literal(variable.rest_value, law_.scalar);
-    if (law_.started_at != no_variable) return name(law_.started_at, 0);
-    return law_.surface_at ? fmt::format("dashpot::pushed_in({}, position)", cpp_literal(*law_.surface_at, law_.scalar))
-                           : "position";
+    return law_.started_at != no_variable ? name(law_.started_at, 0) : "position";
   }
 
   std::vector<std::string> constants() const {
@@ -271,6 +296,7 @@ class BatchPrinter {
                       cpp_literal(law_.flush_threshold, law_.scalar)));
     for (CoefficientId read : constants_read(law_))
       append_constant_of_each(law_.coefficients[read], law_.scalar, lines);
+    append_constant_tables(law_, lines);
     append_ranges(law_, lines);
     return lines;
   }

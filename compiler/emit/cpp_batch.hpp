@@ -23,7 +23,7 @@ struct CppBatch {
   std::vector<std::string> energy;
 };
 
-// Of laws without couplings, networks and calls, and whose guards take no turns.
+// Of laws whose guards take no turns.
 CppBatch cpp_batch(const UpdateLaw& law);
 
 }  // namespace dashpot::compiler

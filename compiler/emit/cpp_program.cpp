@@ -176,10 +176,7 @@ class CppPrinter {
           fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state",
                       literal(law_.flush_threshold)));
     for (CoefficientId read : constants_read(law_)) append_constant(law_.coefficients[read], lines);
-    for (const Coupling& coupling : law_.couplings)
-      if (coupling.tuned.empty()) append_table(law_, coupling, lines);
-    for (const SlipNetwork& network : law_.networks)
-      if (!network.tuned) append_tables(law_, network, lines);
+    append_constant_tables(law_, lines);
     append_ranges(law_, lines);
     return lines;
   }
@@ -241,10 +238,7 @@ class CppPrinter {
     return "";
   }
 
-  std::string rest_position() const {
-    if (law_.started_at != no_variable) return name_of(law_.started_at);
-    return law_.surface_at ? fmt::format("dashpot::pushed_in({}, position)", literal(*law_.surface_at)) : "position";
-  }
+  std::string rest_position() const { return law_.started_at != no_variable ? name_of(law_.started_at) : "position"; }
 
   std::string clearing(const Variable& variable) {
     uses_clear_ = true;
@@ -281,10 +275,7 @@ class CppPrinter {
     for (const GuardInTurn& guard : law_.guards)
       lines.push_back(fmt::format("int {}_ = 0;  // first place of {}_ that is guarded next", guard.name,
                                   law_.variables[guard.state].name));
-    for (const Coupling& coupling : law_.couplings)
-      if (!coupling.tuned.empty()) append_table(law_, coupling, lines);
-    for (const SlipNetwork& network : law_.networks)
-      if (network.tuned) append_tables(law_, network, lines);
+    append_kept_tables(law_, lines);
     return lines;
   }
 

@@ -2,23 +2,31 @@
 // solvers.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "law/update_law.hpp"
-#include "emit/cpp_statements.hpp"
 
 namespace dashpot::compiler {
 
 const char* part_name(slip_part kind);  // the enumerator's
 
-void append_step(const UpdateLaw& law, const Statement& statement, const Coupling& coupling, CppStatements& statements,
-                 std::vector<std::string>& lines);
-void append_step(const UpdateLaw& law, const Statement& statement, const SlipNetwork& network,
-                 CppStatements& statements, std::vector<std::string>& lines);
+// How the code around a solver calls the numbers that go in and come out.
+struct SolverWords {
+  std::function<std::string(VariableId)> read;
+  std::function<std::string(VariableId, const std::string& value)> assignment;  // a statement
+  std::string given;                                                            // the value of the solver's statement
+  bool makes_tables = false;  // what parameters change is written into a table at each step, and not kept in one
+};
 
-void append_table(const UpdateLaw& law, const Coupling& coupling, std::vector<std::string>& lines);
-void append_tables(const UpdateLaw& law, const SlipNetwork& network, std::vector<std::string>& lines);
+// Of a statement that solves for slips.
+void append_step(const UpdateLaw& law, const Statement& statement, const SolverWords& words,
+                 std::vector<std::string>& lines);
+
+// The tables that solvers read: those that no parameter changes, for the class, and all others, for the object.
+void append_constant_tables(const UpdateLaw& law, std::vector<std::string>& lines);
+void append_kept_tables(const UpdateLaw& law, std::vector<std::string>& lines);
 // What set() changes in the tables, by what it has worked out.
 void append_tuning(const UpdateLaw& law, std::vector<std::string>& lines);
 

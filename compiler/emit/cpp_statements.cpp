@@ -85,10 +85,15 @@ std::vector<std::string> CppStatements::lines_of(const std::vector<GuardInTurn>&
 void CppStatements::print_unrolled(const Statement& statement, std::vector<std::string>& lines) {
   const Variable& target = law_.variables[statement.target];
   if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
-  if (const auto* tree = std::get_if<SolveTree>(&statement.step))
-    return append_step(law_, statement, law_.couplings[tree->coupling], *this, lines);
-  if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
-    return append_step(law_, statement, law_.networks[network->network], *this, lines);
+  if (!statement.assigns()) {
+    SolverWords words;
+    words.read = [this](VariableId id) { return scalar_name(law_.variables[id]); };
+    words.assignment = [this](VariableId id, const std::string& value) {
+      return assignment(law_.variables[id], 0) + value + ";";
+    };
+    words.given = expression(statement.value, 0);
+    return append_step(law_, statement, words, lines);
+  }
   const bool is_masked = masks_states_ && target.role == Role::state;
   for (std::size_t place = 0; place < target.size; ++place) {
     std::string value = expression(statement.value, place);

@@ -67,7 +67,7 @@ struct OutputFile {
 };
 
 // <name>.hpp, and <name>_batch.hpp, <name>_test.cpp, <name>_library.cpp and <name>_live.cpp where asked for. Refuses:
-// templates that do not fit; constant time and many points where slips meet at inner nodes, or parameters are tunable.
+// templates that do not fit; constant time where slips are coupled, with each other or with a contact.
 std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, const EmissionOptions& options,
                                                 Diagnostics& diagnostics);
 

@@ -98,7 +98,7 @@ std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, 
                                                 Diagnostics& diagnostics) {
   const std::string& name = compilation.network.name;
   std::vector<OutputFile> files;
-  if (!can_be_emitted(compilation, options, diagnostics)) return std::nullopt;
+  if (options.constant_time && !can_be_timed(compilation, diagnostics)) return std::nullopt;
   const Timing timing = options.constant_time ? Timing::constant : Timing::any;
   bool ok = append("network.hpp.in", name + ".hpp", header_model(compilation, timing), options, files, diagnostics);
   if (options.batch)

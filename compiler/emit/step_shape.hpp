@@ -1,15 +1,14 @@
-// Whether a law's step is a list of statements without loops of its own: what constant time and many points need.
+// Whether a law can be emitted in a form that is asked for.
 #pragma once
 
 #include "emit/emission.hpp"
 
 namespace dashpot::compiler {
 
-// True where nothing asked for stands against the law. Refuses: --constant-time and --batch for coupled slips and
-// slips beside tunables, whose steps take as long as their values have it.
-bool can_be_emitted(const Compilation& compilation, const EmissionOptions& options, Diagnostics& diagnostics);
+// Refuses, in constant time, coupled slips: their solvers' steps take as long as their values have it.
+bool can_be_timed(const Compilation& compilation, Diagnostics& diagnostics);
 
-// The same of C99, where the network's name is also that of a type.
+// Refuses, in C99, names that C or <dashpot/command.h> keeps: the network's name is also that of a type.
 bool can_be_c99(const std::string& name, const Span& name_span, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

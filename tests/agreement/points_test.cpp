@@ -87,27 +87,52 @@ std::string largest_values(const std::string& file) {
   return values;
 }
 
+// Trees and loops of slips, alone and behind a surface; with parameters as well.
+std::vector<std::string> coupled_networks(const fs::path& folder, bool tunable) {
+  std::vector<std::string> files;
+  if (tunable) files.push_back(DASHPOT_NETWORKS "/tunable/layers_tunable.json");
+  else files.push_back(DASHPOT_NETWORKS "/tissues/needle_in_liver.json");
+  constexpr Kind with_slips[] = {Kind::slips, Kind::slips_in_graph, Kind::touched_slips, Kind::touched_slips_in_graph};
+  for (std::uint64_t seed = 1; seed <= repetitions(6, 60); ++seed) {
+    files.push_back((folder / fmt::format("{}_{}.json", tunable ? "tunable" : "random", seed)).string());
+    if (tunable) {
+      write_text(files.back(), tunable_network(seed, with_slips[seed % 4]));
+      continue;
+    }
+    NetworkRecipe recipe;
+    recipe.topology = seed % 2 == 0 ? Topology::tree : Topology::graph;
+    recipe.most_nodes = 7;
+    recipe.most_slips = 4;
+    write_text(files.back(), json_text(random_network(seed, recipe)));
+  }
+  return files;
+}
+
 std::string class_of(const std::string& file) { return fs::path(file).stem().string(); }
 
+// Which classes a batch is compared with.
+enum class Single { in_both_forms, with_jumps };
+
 // The class in constant time stands in a namespace of another name.
-std::string program_of(const std::vector<std::string>& files) {
+std::string program_of(const std::vector<std::string>& files, Single single) {
   std::string headers, timed, calls;
   for (const std::string& file : files) {
     const std::string name = class_of(file);
     headers += fmt::format("#include \"plain/{0}.hpp\"\n#include \"plain/{0}_batch.hpp\"\n", name);
-    timed += fmt::format("#include \"timed/{}.hpp\"\n", name);
+    if (single == Single::in_both_forms) timed += fmt::format("#include \"timed/{}.hpp\"\n", name);
+    const std::string other = (single == Single::in_both_forms ? "dashpot::timed::" : "dashpot::generated::") + name;
     if (const std::string largest = largest_values(file); !largest.empty()) {
       calls += fmt::format(
           "  {{\n    using scalar = dashpot::generated::{0}::scalar;\n    const scalar largest[] = {{{1}}};\n"
-          "    failed |= points::differ_when_set<dashpot::generated::{0}, dashpot::timed::{0}, "
+          "    failed |= points::differ_when_set<dashpot::generated::{0}, {2}, "
           "dashpot::generated::{0}_batch>(\"{0}\", largest);\n  }}\n",
-          name, largest);
+          name, largest, other);
       continue;
     }
     calls += fmt::format(
-        "  failed |= points::differ<dashpot::generated::{0}, dashpot::timed::{0}, "
+        "  failed |= points::differ<dashpot::generated::{0}, {1}, "
         "dashpot::generated::{0}_batch>(\"{0}\");\n",
-        name);
+        name, other);
     if (name == "second_order_maxwell")
       calls += fmt::format(
           "  failed |= points::own_storage_differs<dashpot::generated::{0}, "
@@ -120,15 +145,15 @@ std::string program_of(const std::vector<std::string>& files) {
 }
 
 // Of `files`, compiled into `folder`.
-void expect_agreement(const TemporaryFolder& folder, const std::vector<std::string>& files,
-                      const std::string& choices) {
+void expect_agreement(const TemporaryFolder& folder, const std::vector<std::string>& files, const std::string& choices,
+                      Single single = Single::in_both_forms) {
   std::string all;
   for (const std::string& file : files) all += fmt::format(" '{}'", file);
   const std::string compile =
       fmt::format("'{}' compile {}{} -o '{}/", DASHPOT_EXECUTABLE, choices, all, folder.path().string());
   run_or_throw(compile + "plain' --batch");
-  run_or_throw(compile + "timed' --constant-time");
-  write_text(folder.path() / "points.cpp", program_of(files));
+  if (single == Single::in_both_forms) run_or_throw(compile + "timed' --constant-time");
+  write_text(folder.path() / "points.cpp", program_of(files, single));
   for (const Machine& machine : machines) {
     const std::string program = (folder.path() / "points").string();
     run_or_throw(fmt::format(
@@ -173,6 +198,20 @@ TEST(Points, are_single_networks_with_parameters_on_a_weak_motor) {
                           "velocity": { "estimator": "backward_difference", "window": 1 } })");
   expect_agreement(folder, tunable_networks(folder.path()),
                    fmt::format("--device '{}' --decomposition paper --uncertified --scalar float", device));
+}
+
+// Fails likewise where slips are solved together, one point after the other, in double and in float.
+TEST(Points, are_single_networks_with_coupled_slips) {
+  for (const char* choices : {"--rate 1000", "--rate 5000 --scalar float --scheme backward-euler"}) {
+    const TemporaryFolder folder;
+    expect_agreement(folder, coupled_networks(folder.path(), false), choices, Single::with_jumps);
+  }
+}
+
+// Fails likewise where what the solvers read is another at each point, since parameters change it.
+TEST(Points, are_single_networks_with_coupled_slips_and_parameters) {
+  const TemporaryFolder folder;
+  expect_agreement(folder, coupled_networks(folder.path(), true), "--rate 1000", Single::with_jumps);
 }
 
 // Fails likewise where the brake's coil needs twenty samples from one regime to another, and the motor makes up for it

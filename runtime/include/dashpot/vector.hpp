@@ -140,6 +140,12 @@ class vector {
     else return value_;
   }
 
+  // Another value at place i.
+  void put(int i, Scalar value) noexcept {
+    if constexpr (count > 1) value_[i] = value;
+    else value_ = value;
+  }
+
  private:
   struct packed_tag {};
   vector(packed_tag, packed_type value) noexcept : value_(value) {}

@@ -6,7 +6,7 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr int places = 16;
+constexpr std::size_t places = 16;
 
 ComplexReal inverse(const ComplexReal& d) {
   const Real square = d.real * d.real + d.imaginary * d.imaginary;
@@ -34,7 +34,9 @@ ObserverPlaces::ObserverPlaces(const Network& network, double reference_frequenc
   const bool has_both = stiffness.most > 0 && damping.most > 0;
   const Real low = has_both ? Real(stiffness.least / damping.most / 100) : Real(1);
   const Real high = has_both ? Real(stiffness.most / damping.least * 100) : Real(1);
-  for (int i = 0; i < places; ++i) along_.push_back(low * pow(high / low, Real(i) / (places - 1)));
+  const Real onward = pow(high / low, Real(1) / (places - 1));
+  along_.push_back(low);
+  while (along_.size() < places) along_.push_back(along_.back() * onward);
 }
 
 ObserverResponse ObserverPlaces::of(const Law& law) const {

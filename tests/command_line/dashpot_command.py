@@ -29,6 +29,7 @@ BROKEN = network('{ "spring": "-1 N/m" }', "broken")
 
 class CommandTest(unittest.TestCase):
     """Each test in a folder of its own, which is also the working folder of the command."""
+    explained_before = {}  # what `explain` says of the project's own files, which no test changes
 
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -47,8 +48,14 @@ class CommandTest(unittest.TestCase):
         return sorted(str(path.relative_to(root)) for path in root.rglob("*") if path.is_file())
 
     def dashpot(self, *arguments, status=DONE, cwd=None, **more):
-        done = subprocess.run([DASHPOT, *map(str, arguments)], cwd=cwd or self.folder, capture_output=True, text=True,
-                              timeout=60, **more)
+        words = tuple(map(str, arguments))
+        own_files = [word for word in words if word in self.files()]
+        is_said_once = words[:1] == ("explain",) and not own_files and not cwd and not more
+        done = self.explained_before.get(words) if is_said_once else None
+        if done is None:
+            done = subprocess.run([DASHPOT, *words], cwd=cwd or self.folder, capture_output=True, text=True, timeout=60, **more)
+        if is_said_once:
+            self.explained_before[words] = done
         if status is not None:
             self.assertEqual(done.returncode, status, f"{arguments}\n{done.stdout}{done.stderr}")
         return done

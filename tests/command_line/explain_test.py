@@ -322,7 +322,7 @@ class Json(CommandTest):
           { "series": [ { "spring": 65.6 }, { "damper": 5.25 } ] }, { "series": [ { "slip": 0.75 }, { "spring": 1500 } ] } ] } }""")
         device = json.loads(PANTOGRAPH.read_text())
         device["loop"].update(rate="2 kHz", jitter="40 us", delay_samples=1)
-        device["velocity"] = {"estimator": "backward_difference", "window": 10}
+        device["velocity"] = {"estimator": "backward_difference", "window": 2}
         device["brake"].update(max_damping="20 mN m s/rad")
         self.write("late.json", json.dumps(device))
         done = self.dashpot("explain", "needle.json", "--device", "late.json", "--json")

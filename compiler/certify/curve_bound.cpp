@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "certify/box_hold.hpp"
 #include "certify/box_motor.hpp"
@@ -123,28 +124,45 @@ class CurveNeed {
   double lacking(double needed_behind, double cost_of_estimate) const {
     if (held_.is_stepwise) needed_behind = std::max(needed_behind, stiffness_ * tool_.longest_hold());
     double least = std::numeric_limits<double>::infinity();
+    const std::vector<BentStretch> bent = bent_stretches();
     for (const double constants : {0.0, 1.0, 2.0, 4.0, 8.0}) {
       if (coil_lag_ > 0 ? constants == 0 : constants > 0) continue;
-      least = std::min(least, lacking_with(needed_behind, constants));
+      least = std::min(least, lacking_with(needed_behind, constants, bent));
     }
     return (least + cost_of_lag() + cost_of_estimate) * margin;
   }
 
  private:
-  double lacking_with(double needed_behind, double constants) const {
-    const double hold = tool_.longest_hold();
-    const double reach = tool_.tool_speed * hold * (1.0 + tool_.delay_samples);
-    const double brake_reach = reach + constants * coil_lag_ * tool_.tool_speed;
-    const double settled = coil_lag_ > 0 ? std::pow(1 - std::exp(-constants), 2) : 1;
-    double most = 0;
+  // What is lacking there however long the coil has had.
+  struct BentStretch {
+    double from, to;
+    double steepest;  // w′ at most, of all that the tool may come to within a hold
+    double bend;      // what it costs that w′ changes meanwhile [N·s/m]
+  };
+
+  std::vector<BentStretch> bent_stretches() const {
+    const double hold = tool_.longest_hold(), reach = reach_of_hold();
+    std::vector<BentStretch> all;
     each_stretch([&](double from, double to) {
       const double before = std::max(from - reach, 0.0), after = to + reach;
       const double steepest = map_.largest_tangent(before, after);
-      const double flattest = flattest_within(from - brake_reach, to + brake_reach);
       const double bend = hold * cost_of_bend(before, after, steepest, map_.largest_curvature(before, after), reach);
-      most =
-          std::max(most, needed_behind * steepest * steepest + bend - share_ * settled * brake_ * flattest * flattest);
+      all.push_back({from, to, steepest, bend});
     });
+    return all;
+  }
+
+  double reach_of_hold() const { return tool_.tool_speed * tool_.longest_hold() * (1.0 + tool_.delay_samples); }
+
+  double lacking_with(double needed_behind, double constants, const std::vector<BentStretch>& bent) const {
+    const double brake_reach = reach_of_hold() + constants * coil_lag_ * tool_.tool_speed;
+    const double settled = coil_lag_ > 0 ? std::pow(1 - std::exp(-constants), 2) : 1;
+    double most = 0;
+    for (const BentStretch& one : bent) {
+      const double flattest = flattest_within(one.from - brake_reach, one.to + brake_reach);
+      most = std::max(most, needed_behind * one.steepest * one.steepest + one.bend -
+                                share_ * settled * brake_ * flattest * flattest);
+    }
     return most;
   }
 

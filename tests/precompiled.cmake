@@ -1,5 +1,5 @@
-# With DASHPOT_PRECOMPILE: every program of these rooms that links the compiler and GoogleTest reads one precompiled header.
-# Rooms do nothing for it.
+# With DASHPOT_PRECOMPILE: every program of these rooms that links GoogleTest reads a precompiled header, with what the compiler
+# is made of where it links that too. Rooms do nothing for it.
 if(NOT DASHPOT_PRECOMPILE)
   return()
 endif()
@@ -13,6 +13,12 @@ target_precompile_headers(dashpot_precompiled PRIVATE
   <algorithm> <cmath> <functional> <map> <memory> <optional> <string> <variant> <vector>
   <fmt/format.h> <boost/multiprecision/cpp_bin_float.hpp> <gtest/gtest.h>)
 
+add_library(dashpot_precompiled_tests OBJECT ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
+target_compile_features(dashpot_precompiled_tests PRIVATE cxx_std_20)
+target_link_libraries(dashpot_precompiled_tests PRIVATE dashpot_warnings GTest::gtest)
+target_precompile_headers(dashpot_precompiled_tests PRIVATE
+  <algorithm> <array> <chrono> <cmath> <functional> <memory> <optional> <string> <thread> <vector> <gtest/gtest.h>)
+
 function(read_precompiled_header folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target IN LISTS targets)
@@ -21,8 +27,15 @@ function(read_precompiled_header folder)
       continue()
     endif()
     get_target_property(libraries ${target} LINK_LIBRARIES)
+    get_target_property(own ${target} PRECOMPILE_HEADERS)
+    get_target_property(shared ${target} PRECOMPILE_HEADERS_REUSE_FROM)
+    if(own OR shared)
+      continue()
+    endif()
     if(libraries MATCHES "GTest::" AND libraries MATCHES "dashpot_test_support|dashpot::compiler|paper_experiments")
       target_precompile_headers(${target} REUSE_FROM dashpot_precompiled)
+    elseif(libraries MATCHES "GTest::|board_bench")
+      target_precompile_headers(${target} REUSE_FROM dashpot_precompiled_tests)
     endif()
   endforeach()
   get_property(rooms_within DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)

@@ -49,7 +49,8 @@ class CommandTest(unittest.TestCase):
 
     def dashpot(self, *arguments, status=DONE, cwd=None, **more):
         words = tuple(map(str, arguments))
-        own_files = [word for word in words if word in self.files()]
+        own_files = [word for word in words
+                     if (self.folder / word).is_relative_to(self.folder) and (self.folder / word).exists()]
         is_said_once = words[:1] == ("explain",) and not own_files and not cwd and not more
         done = self.explained_before.get(words) if is_said_once else None
         if done is None:

@@ -312,6 +312,9 @@ class Verify(CommandTest):
         header, certificate = self.emitted([TWENTY, "--batch"], "law")
         points = (self.folder / "law" / "twenty_branches_batch.hpp").read_text()
         self.assertIn("nearest", self.verify(points, certificate, "points").stdout)
+        for name, law in [("coupled", "coupled.json"), ("layers_tunable", SOURCE / "networks/tunable/layers_tunable.json")]:
+            _, of_slips = self.emitted([law, "--batch"], name)
+            self.assertIn("nearest", self.verify((self.folder / name / f"{name}_batch.hpp").read_text(), of_slips, f"{name}_points").stdout)
         place = numbers_of(points[:points.index("storage_size")])[-1][1] - 1
         others = [points.replace(" + ", " - ", 1), changed_digit(points, place, random.Random(SEED)), points.replace("states = ", "states = 1", 1)]
         for i, other in enumerate(others):

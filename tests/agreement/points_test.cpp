@@ -93,7 +93,7 @@ std::vector<std::string> coupled_networks(const fs::path& folder, bool tunable) 
   if (tunable) files.push_back(DASHPOT_NETWORKS "/tunable/layers_tunable.json");
   else files.push_back(DASHPOT_NETWORKS "/tissues/needle_in_liver.json");
   constexpr Kind with_slips[] = {Kind::slips, Kind::slips_in_graph, Kind::touched_slips, Kind::touched_slips_in_graph};
-  for (std::uint64_t seed = 1; seed <= repetitions(6, 60); ++seed) {
+  for (std::uint64_t seed = 1; seed <= repetitions(4, 60); ++seed) {
     files.push_back((folder / fmt::format("{}_{}.json", tunable ? "tunable" : "random", seed)).string());
     if (tunable) {
       write_text(files.back(), tunable_network(seed, with_slips[seed % 4]));

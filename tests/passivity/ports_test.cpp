@@ -76,7 +76,7 @@ Balance after_attacks(const Compilation& c, const Case& one, double damping, std
 // If this fails, ports that are called certified side by side give out energy.
 TEST(Ports, CertifiedLawsGiveOutNoEnergy) {
   int certified = 0, limited = 0;
-  const int cases = int(repetitions(16, 1000));
+  const int cases = int(repetitions(10, 1000));
   for (std::uint64_t seed = 1; seed <= std::uint64_t(cases); ++seed) {
     const Case one = random_ports(seed, true);
     double damping = 0.3;

@@ -67,29 +67,19 @@ class Evaluation<Scalar>::Translation {
     return one;
   }
 
+  // What an operation names stands behind its operands: a value for each place, or a table or vector as a whole.
   void refer(const Expression& e, Instruction& one) const {
-    switch (facts_of(e.operation).refers_to) {
-      case Referent::operands_only: return;
-      case Referent::variable: {
-        const std::size_t size = law_.variables[e.variable].size;
-        one.operands[0] = place(of_.variables_[e.variable.place()], size);
-        if (e.operation == Operation::sum) one.last = size - 1;
-        else one.count = size;
-        return;
-      }
-      case Referent::coefficient: {
-        const std::size_t size = law_.coefficients[e.coefficient].values.size(),
-                          first = of_.coefficients_[e.coefficient.place()];
-        if (e.operation == Operation::pick) {
-          one.operands[1] = {first, 0};
-          one.last = size - 1;
-          return;
-        }
-        one.operands[0] = place(first, size);
-        one.count = size;
-        return;
-      }
-    }
+    const OperationFacts& facts = facts_of(e.operation);
+    if (facts.refers_to == Referent::operands_only) return;
+    const bool is_variable = facts.refers_to == Referent::variable;
+    const std::size_t size =
+        is_variable ? law_.variables[e.variable].size : law_.coefficients[e.coefficient].values.size();
+    const std::size_t first =
+        is_variable ? of_.variables_[e.variable.place()] : of_.coefficients_[e.coefficient.place()];
+    const bool is_value = e.operation == Operation::read || e.operation == Operation::constant;
+    one.operands[facts.operands] = is_value ? place(first, size) : Place{first, 0};
+    one.last = size - 1;
+    if (is_value) one.count = size;
   }
 
   Evaluation& of_;

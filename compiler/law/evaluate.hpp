@@ -69,9 +69,9 @@ class Evaluation {
     Operation operation;
     std::size_t count;
     std::size_t target;
-    std::array<Place, 3> operands = {};
-    std::size_t last = 0;               // place of a table
-    const Statement* solver = nullptr;  // of such a step
+    std::array<Place, 4> operands = {};  // and behind them what it names
+    std::size_t last = 0;                // place of a table or vector
+    const Statement* solver = nullptr;   // of such a step
   };
   using Instructions = std::vector<Instruction>;
 

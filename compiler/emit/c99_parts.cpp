@@ -110,7 +110,7 @@ class Wording {
     text_["ROOT_BIT"] = is_float ? "4" : "8";
     text_["LAST_PLACE"] = literal(is_float ? 0x1p-23 : 0x1p-52);
     text_["HALF_OF_DIGITS"] = literal(is_float ? 0x1p12 + 1 : 0x1p27 + 1);
-    for (const char* shared : {"dashpot_flush_below", "dashpot_clamp_to", "dashpot_pushed_in"})
+    for (const char* shared : {"dashpot_flush_below", "dashpot_clamp_to"})
       text_[fmt::format("{}F", shared)] = fmt::format("{}{}", shared, is_float ? "f" : "");
   }
 

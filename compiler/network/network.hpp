@@ -3,7 +3,6 @@
 
 #include <dashpot/command.hpp>
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -102,7 +101,7 @@ struct Network {
   // Where the unloaded surface lies, and what of a position pushes it in; without a contact 0, and all of it [m] or
   // [rad].
   double surface() const { return contact ? contact->at : 0; }
-  double pushed_in(double position) const { return contact ? std::max(position - surface(), 0.0) : position; }
+  double pushed_in(double position) const { return contact ? dashpot::pushed_in(contact->at, position) : position; }
 };
 
 // In: what the author wrote. Out: the network in SI. Ensures: values finite and non-negative, names legal C++ names and

@@ -78,8 +78,6 @@ static inline float dashpot_clamp_tof(float limit, float value) {
 }
 
 // How far a tool at `position` has pushed in a surface that lies at `at`, unloaded; 0 before it.
-static inline double dashpot_pushed_in(double at, double position) { return (position > at) ? (position - at) : 0.0; }
-static inline float dashpot_pushed_inf(float at, float position) { return (position > at) ? (position - at) : 0.0f; }
 
 #endif
 

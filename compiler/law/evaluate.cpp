@@ -4,6 +4,7 @@
 #include <dashpot/exponential.hpp>
 
 #include <algorithm>
+#include <map>
 #include <span>
 #include <stdexcept>
 
@@ -28,6 +29,12 @@ class Evaluation<Scalar>::Translation {
   std::size_t room() const { return room_; }  // places between two operations, of the widest statement
 
  private:
+  // What an expression has become: where its value stands once the instructions before have run.
+  struct Value {
+    Place place;
+    std::size_t count;
+  };
+
   void add_step(const Statement& statement, Place given) {
     Instruction step{Operation::read, 1, 0};
     step.operands[0] = given;

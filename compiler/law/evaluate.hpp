@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <map>
 #include <vector>
 
 #include "law/update_law.hpp"
@@ -74,12 +73,6 @@ class Evaluation {
     const Statement* solver = nullptr;   // of such a step
   };
   using Instructions = std::vector<Instruction>;
-
-  // What an expression has become: where its value stands once the instructions before have run.
-  struct Value {
-    Place place;
-    std::size_t count;
-  };
 
   class Translation;  // of one statement into instructions
 

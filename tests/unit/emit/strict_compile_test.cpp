@@ -61,6 +61,24 @@ std::string caller_of_batch(const std::string& name, const std::string& outputs 
       name, outputs);
 }
 
+// At each of the levels, by each of the compilers, with headers from a folder of theirs.
+void expect_no_symbol_undefined(const std::filesystem::path& folder, const std::filesystem::path& headers,
+                                const std::string& caller, const std::string& name,
+                                const std::vector<std::string>& levels) {
+  const std::filesystem::path source = folder / "caller.cpp", object = folder / "caller.o";
+  write_text(source, caller);
+  for (const Compiler& compiler : compilers)
+    for (const std::string& level : levels) {
+      const Finished built =
+          run_command(fmt::format("'{}' {} {} -c '{}' -o '{}' {} -I'{}'", compiler.path, strict, level, source.string(),
+                                  object.string(), runtime_include(), headers.string()));
+      EXPECT_TRUE(built.status == 0 && built.output.empty()) << compiler.name << level << ":\n"
+                                                             << built.output.substr(0, 4000);
+      EXPECT_EQ(run_command(fmt::format("nm -C -u '{}'", object.string())).output, "")
+          << compiler.name << " " << level << ", " << name;
+    }
+}
+
 class StrictCompile : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -116,42 +134,19 @@ TEST_F(StrictCompile, leaves_no_symbol_undefined) {
 
 // Fails likewise for a batch, but that storage of its own is put to rest before a program begins.
 TEST_F(StrictCompile, leaves_no_symbol_of_a_batch_undefined) {
-  const std::filesystem::path caller = folder_->path() / "caller.cpp", object = folder_->path() / "caller.o";
-  for (const char* name : {"second_order_maxwell", "twenty_branches"}) {
-    write_text(caller, caller_of_batch(name));
-    for (const Compiler& compiler : compilers)
-      for (const char* level : {"-O0", "-O2", "-O3"}) {
-        const Finished built = run_command(fmt::format("'{}' {} {} -c '{}' -o '{}' {} -I'{}'", compiler.path, strict,
-                                                       level, caller.string(), object.string(), runtime_include(),
-                                                       emitted_.front().path.string()));
-        EXPECT_TRUE(built.status == 0 && built.output.empty()) << compiler.name << level << ":\n"
-                                                               << built.output.substr(0, 4000);
-        EXPECT_EQ(run_command(fmt::format("nm -C -u '{}'", object.string())).output, "")
-            << compiler.name << " " << level << ", " << name;
-      }
-  }
+  for (const char* name : {"second_order_maxwell", "twenty_branches"})
+    expect_no_symbol_undefined(folder_->path(), emitted_.front().path, caller_of_batch(name), name,
+                               {"-O0", "-O2", "-O3"});
 }
 
 // Fails likewise where slips of each point are solved together; at -O0 clang clears whatever array by memset.
 TEST(StrictBatch, of_coupled_slips_leaves_no_symbol_undefined) {
   const TemporaryFolder folder;
-  const std::filesystem::path caller = folder.path() / "caller.cpp", object = folder.path() / "caller.o";
-  emit_headers(folder.path() / "out",
-               {DASHPOT_NETWORKS "/tissues/needle_in_liver.json", DASHPOT_NETWORKS "/tunable/layers_tunable.json"},
-               "--batch");
-  for (const char* name : {"needle_in_liver", "layers_tunable"}) {
-    write_text(caller, caller_of_batch(name, "d, f"));
-    for (const Compiler& compiler : compilers)
-      for (const char* level : {"-O2", "-O3"}) {
-        const Finished built = run_command(fmt::format("'{}' {} {} -c '{}' -o '{}' {} -I'{}'", compiler.path, strict,
-                                                       level, caller.string(), object.string(), runtime_include(),
-                                                       (folder.path() / "out").string()));
-        EXPECT_TRUE(built.status == 0 && built.output.empty()) << compiler.name << level << ":\n"
-                                                               << built.output.substr(0, 4000);
-        EXPECT_EQ(run_command(fmt::format("nm -C -u '{}'", object.string())).output, "")
-            << compiler.name << " " << level << ", " << name;
-      }
-  }
+  const EmittedFolder emitted = emit_headers(
+      folder.path() / "out",
+      {DASHPOT_NETWORKS "/tissues/needle_in_liver.json", DASHPOT_NETWORKS "/tunable/layers_tunable.json"}, "--batch");
+  for (const char* name : {"needle_in_liver", "layers_tunable"})
+    expect_no_symbol_undefined(folder.path(), emitted.path, caller_of_batch(name, "d, f"), name, {"-O2", "-O3"});
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-# With DASHPOT_PRECOMPILE: every program of these rooms that links GoogleTest reads a precompiled header, with what the compiler
-# is made of where it links that too. Rooms do nothing for it.
+# With DASHPOT_PRECOMPILE: every program of these rooms that links GoogleTest reads a precompiled header, with what the
+# compiler is made of where it links that too. Rooms do nothing for it.
 if(NOT DASHPOT_PRECOMPILE)
   return()
 endif()

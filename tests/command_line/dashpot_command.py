@@ -54,7 +54,8 @@ class CommandTest(unittest.TestCase):
         is_said_once = words[:1] == ("explain",) and not own_files and not cwd and not more
         done = self.explained_before.get(words) if is_said_once else None
         if done is None:
-            done = subprocess.run([DASHPOT, *words], cwd=cwd or self.folder, capture_output=True, text=True, timeout=60, **more)
+            done = subprocess.run([DASHPOT, *words], cwd=cwd or self.folder, capture_output=True, text=True,
+                                  timeout=60, **more)
         if is_said_once:
             self.explained_before[words] = done
         if status is not None:

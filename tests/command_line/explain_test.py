@@ -164,7 +164,8 @@ class Json(CommandTest):
             shapes = ["paper/virtual_wall", "paper/visco_elasto_plastic", "tunable/standard_solid_tunable", "static/sphere_on_gel",
                       "tissues/needle_in_liver"]
             others = [path for path in networks if not re.search("organ|slip_ten|layers", path.stem)]  # the slowest
-            on_device = [*(SOURCE / f"networks/{shape}.json" for shape in shapes), *random.Random(SEED).sample(others, 3)]
+            on_device = [SOURCE / f"networks/{shape}.json" for shape in shapes]
+            on_device += random.Random(SEED).sample(others, 3)
         for path in [FIG_5, *networks]:
             for device in [[], ["--device", PANTOGRAPH]] if path in [FIG_5, *on_device] else [[]]:
                 done = subprocess.run([DASHPOT, "explain", path, *device, "--legend"], capture_output=True, text=True)

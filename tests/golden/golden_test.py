@@ -26,7 +26,8 @@ FELT = [f"networks/{name}.json" for name in [
     "paper/visco_elasto_plastic", "paper/virtual_wall", "tissues/human_liver_normal", "tissues/heel_fat_pad",
     "tunable/second_order_maxwell_tunable"]]
 # Of which the motor that is shorted as a brake says what it says of another.
-ALIKE = [f"networks/{name}.json" for name in ["paper/maxwell_damper_at_tool", "paper/bridge", "tissues/human_liver_normal"]]
+ALIKE = [f"networks/{name}.json" for name in [
+    "paper/maxwell_damper_at_tool", "paper/bridge", "tissues/human_liver_normal"]]
 
 
 def of_network(path):

@@ -18,19 +18,57 @@ constexpr std::size_t most_combined_ports = 6;  // beyond, all ports are at the 
 const Reference difference_step{"1e-25"};
 
 ReferencePair plus(const ReferencePair& a, const ReferencePair& b) { return {a[0] + b[0], a[1] + b[1]}; }
-ReferencePair link(double length, const Reference& angle) {
-  return {Reference(length) * cos(angle), Reference(length) * sin(angle)};
+ReferencePair times(double length, const ReferencePair& direction) {
+  return {Reference(length) * direction[0], Reference(length) * direction[1]};
+}
+ReferencePair direction_of(const Reference& angle) { return {cos(angle), sin(angle)}; }
+// Of the sum of two angles.
+ReferencePair turned_by(const ReferencePair& a, const ReferencePair& b) {
+  return {a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]};
 }
 
-// Around the left elbow by the angle to the right one and that of the triangle of the elbows and the tip.
-ReferencePair five_bar_tip(const axes::Arm& arm, const ReferencePair& q) {
+// Around the left elbow: from the direction to the right one by the angle at it in the triangle of the elbows and the
+// tip, whose cosine is half the elbows' distance by the distal length.
+ReferencePair five_bar_tip(const axes::Arm& arm, const ReferencePair& left_way, const ReferencePair& right_way) {
   const Reference side = Reference(arm.base) / 2;
-  const ReferencePair left = plus({-side, 0}, link(arm.proximal, q[0]));
-  const ReferencePair right = plus({side, 0}, link(arm.proximal, q[1]));
+  const ReferencePair left = plus({-side, 0}, times(arm.proximal, left_way));
+  const ReferencePair right = plus({side, 0}, times(arm.proximal, right_way));
   const Reference dx = right[0] - left[0], dy = right[1] - left[1];
   const Reference apart = sqrt(Reference(dx * dx + dy * dy));
-  const Reference to_tip = atan2(dy, dx) + acos(Reference(apart / (2 * Reference(arm.distal))));
-  return plus(left, link(arm.distal, to_tip));
+  const Reference cosine = apart / (2 * Reference(arm.distal));
+  const ReferencePair at_elbow{cosine, sqrt(Reference(1 - cosine * cosine))};
+  return plus(left, times(arm.distal, turned_by({dx / apart, dy / apart}, at_elbow)));
+}
+
+// Of joints of which the directions are known; of sliding ones `q` itself.
+ReferencePair tip_of(const axes::Arm& arm, const ReferencePair& q, const ReferencePair& first,
+                     const ReferencePair& second) {
+  switch (arm.kind) {
+    case axes::Kinematics::serial: return plus(times(arm.proximal, first), times(arm.distal, turned_by(first, second)));
+    case axes::Kinematics::parallelogram: return plus(times(arm.proximal, first), times(arm.distal, second));
+    case axes::Kinematics::five_bar: return five_bar_tip(arm, first, second);
+    case axes::Kinematics::cartesian: break;
+  }
+  return q;
+}
+
+// Tips where each joint is a step behind, at, and a step ahead of where it is.
+using NearTips = std::array<std::array<ReferencePair, 3>, 3>;
+
+NearTips near_tips(const axes::Arm& arm, const ReferencePair& q) {
+  std::array<std::array<Reference, 3>, 2> angle;
+  std::array<std::array<ReferencePair, 3>, 2> direction;
+  for (std::size_t joint = 0; joint < 2; ++joint) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      angle[joint][i] = q[joint] + difference_step * Reference(int(i) - 1);
+      direction[joint][i] = direction_of(angle[joint][i]);
+    }
+  }
+  NearTips tips;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      tips[i][k] = tip_of(arm, {angle[0][i], angle[1][k]}, direction[0][i], direction[1][k]);
+  return tips;
 }
 
 // Of a map that is no grid.
@@ -87,11 +125,11 @@ struct Differences {
   SymmetricReference hessian;
 };
 
-Differences differences(const std::function<Reference(const ReferencePair&)>& f, const ReferencePair& q) {
+Differences differences(const std::function<Reference(const ReferencePair&)>& of_tip, const NearTips& tips) {
   const Reference& h = difference_step;
-  const auto at = [&](int first, int second) { return f({q[0] + h * Reference(first), q[1] + h * Reference(second)}); };
-  const Reference here = at(0, 0), ahead = at(1, 0), behind = at(-1, 0), above = at(0, 1), below = at(0, -1);
-  const Reference crossed = at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1);
+  const auto at = [&](std::size_t first, std::size_t second) { return of_tip(tips[first][second]); };
+  const Reference here = at(1, 1), ahead = at(2, 1), behind = at(0, 1), above = at(1, 2), below = at(1, 0);
+  const Reference crossed = at(2, 2) - at(2, 0) - at(0, 2) + at(0, 0);
   return {here,
           {(ahead - behind) / (2 * h), (above - below) / (2 * h)},
           {(ahead - 2 * here + behind) / (h * h), crossed / (4 * h * h), (above - 2 * here + below) / (h * h)}};
@@ -210,9 +248,9 @@ class Places {
     const Reference delay = Reference(c_.device.loop().delay_samples);
     SymmetricReference sum, springs;
     std::vector<std::vector<SymmetricReference>> turned;  // of each pushed port, by the end of its force
+    const NearTips tips = near_tips(c_.device.arm, joints);
     for (const PortForce& force : forces_) {
-      const Differences w =
-          differences([&](const ReferencePair& q) { return depth_of(force, reference_tip(c_.device.arm, q)); }, joints);
+      const Differences w = differences([&](const ReferencePair& tip) { return depth_of(force, tip); }, tips);
       const std::vector<Reference> ends = ends_of(force, w.value);
       if (ends.empty()) continue;
       const auto& [first, second] = w.gradient;
@@ -255,13 +293,7 @@ class Places {
 }  // namespace
 
 ReferencePair reference_tip(const axes::Arm& arm, const ReferencePair& q) {
-  switch (arm.kind) {
-    case axes::Kinematics::serial: return plus(link(arm.proximal, q[0]), link(arm.distal, q[0] + q[1]));
-    case axes::Kinematics::parallelogram: return plus(link(arm.proximal, q[0]), link(arm.distal, q[1]));
-    case axes::Kinematics::five_bar: return five_bar_tip(arm, q);
-    case axes::Kinematics::cartesian: break;
-  }
-  return q;
+  return tip_of(arm, q, direction_of(q[0]), direction_of(q[1]));
 }
 
 LawFacts facts_of_port(const AxesCompilation& c, std::size_t port) {

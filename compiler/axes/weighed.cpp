@@ -1,42 +1,64 @@
 #include "axes/weighed.hpp"
 
-#include <utility>
-#include <vector>
+#include <array>
 
 namespace dashpot::compiler::axes {
+namespace {
 
-Interval weighed(const Symmetric<Interval>& n, const Pair<double>& weight) {
-  const Interval first(weight[0]), second(weight[1]);
-  const Interval a = Interval(n.xx.high) / first, c = Interval(n.yy.high) / second;
-  const Interval coupling = Interval(abs(n.xy).high);
-  return Interval(0.5) * (a + c) + sqrt(square(Interval(0.5) * (a - c)) + square(coupling) / (first * second));
+// N to W^−½ N W^−½, of which x is the largest eigenvalue.
+class Scaling {
+ public:
+  explicit Scaling(const Pair<double>& weight)
+      : first_(Interval(1) / Interval(weight[0])),
+        coupled_(Interval(1) / sqrt(Interval(weight[0]) * Interval(weight[1]))),
+        second_(Interval(1) / Interval(weight[1])) {}
+
+  Symmetric<Interval> operator()(const Interval& xx, const Interval& xy, const Interval& yy) const {
+    return {first_ * xx, coupled_ * xy, second_ * yy};
+  }
+
+ private:
+  Interval first_, coupled_, second_;
+};
+
+// x of a scaled matrix, and no less; ∞ where it has no numbers.
+double largest_of(const Symmetric<Interval>& m) {
+  const double a = m.xx.high, c = m.yy.high, b = abs(m.xy).high, half_apart = above(0.5 * std::abs(a - c));
+  const double root = above(std::sqrt(above(above(half_apart * half_apart) + above(b * b))));
+  const double x = above(above(0.5 * (a + c)) + root);
+  return x < infinity ? x : infinity;
 }
 
+struct Corner {
+  Symmetric<Interval> scaled;
+  Pair<double> at{0, 0};
+};
+
+}  // namespace
+
 Largest weighed(const Symmetric<Sloped>& n, const Pair<double>& weight) {
-  const auto is_level = [&](std::size_t j) {
-    const auto level = [&](const Sloped& s) { return s.slope[j].low == 0 && s.slope[j].high == 0; };
-    return level(n.xx) && level(n.xy) && level(n.yy);
-  };
-  std::vector<std::pair<Symmetric<Interval>, Pair<double>>> ends{{{n.xx.middle, n.xy.middle, n.yy.middle}, {0, 0}}};
+  const Scaling scaled(weight);
+  std::array<Corner, std::size_t(1) << std::tuple_size_v<Slopes>> corners;
+  corners[0].scaled = scaled(n.xx.middle, n.xy.middle, n.yy.middle);
+  std::size_t count = 1;
   for (std::size_t j = 0; j < std::tuple_size_v<Slopes>; ++j) {
-    if (is_level(j)) continue;
-    const Symmetric<Interval> way{n.xx.slope[j], n.xy.slope[j], n.yy.slope[j]};
-    const std::size_t so_far = ends.size();
-    for (std::size_t i = 0; i < so_far; ++i) {
-      auto [less, at] = ends[i];
-      if (j < 2) at[j] = -1;
-      ends.emplace_back(less - way, at);
-      ends[i].first = less + way;
-      if (j < 2) ends[i].second[j] = 1;
+    const auto is_level = [&](const Sloped& s) { return s.slope[j].low == 0 && s.slope[j].high == 0; };
+    if (is_level(n.xx) && is_level(n.xy) && is_level(n.yy)) continue;
+    const Symmetric<Interval> way = scaled(n.xx.slope[j], n.xy.slope[j], n.yy.slope[j]);
+    for (std::size_t i = 0; i < count; ++i) {
+      Corner &ahead = corners[i], &behind = corners[count + i];
+      behind = {ahead.scaled - way, ahead.at};
+      ahead.scaled = ahead.scaled + way;
+      if (j < 2) ahead.at[j] = 1, behind.at[j] = -1;
     }
+    count *= 2;
   }
   Largest most{-infinity};
-  for (const auto& [end, at] : ends) {
-    const double x = weighed(end, weight).high;
-    if (!(x <= most.x)) most = {x, at};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = largest_of(corners[i].scaled);
+    if (x > most.x) most = {x, corners[i].at};
   }
-  const double as_they_are = weighed(Symmetric<Interval>{n.xx.value, n.xy.value, n.yy.value}, weight).high;
-  if (!(most.x <= as_they_are)) most.x = as_they_are;
+  most.x = std::min(most.x, largest_of(scaled(n.xx.value, n.xy.value, n.yy.value)));
   return most;
 }
 

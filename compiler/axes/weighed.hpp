@@ -9,14 +9,13 @@ namespace dashpot::compiler::axes {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The largest x over the members N of an interval matrix with x W ≥ N: at a corner, where the diagonal is largest and
-// the coupling farthest from 0,
+// The largest x over the members N of an interval matrix with x W ≥ N is at a corner, where the diagonal is largest and
+// the coupling farthest from 0:
 //
 //     x = ½(a + c) + √(¼(a − c)² + b²),     a = N11/W1, c = N22/W2, b² = N12²/(W1 W2)
-Interval weighed(const Symmetric<Interval>& n, const Pair<double>& weight);
-
-// The same over a box: x is convex in a matrix, and so largest where every t_j is at an end if entries go straight with
-// all of them; what slopes are wide by is in the entries there. Or of the entries as they are, where that is less.
+//
+// It is convex in a matrix. So over a box it is largest where every t_j is at an end if entries go straight with all of
+// them; what slopes are wide by is in the entries there. Or of the entries as they are, where that is less.
 struct Largest {
   double x;
   Pair<double> at{0, 0};  // the first two t_j at that end

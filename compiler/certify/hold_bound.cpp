@@ -11,15 +11,17 @@ namespace {
 
 constexpr unsigned grid = 1200;  // finer than the least double by 126 binary places
 
-}  // namespace
-
-mp::cpp_int grid_steps_up(const Rational& value) {
-  const mp::cpp_int scaled = mp::numerator(value) << grid;
+// Of a fraction that need not be in lowest terms.
+mp::cpp_int steps_up(const mp::cpp_int& numerator, const mp::cpp_int& denominator) {
   mp::cpp_int quotient, remainder;
-  mp::divide_qr(scaled, mp::denominator(value), quotient, remainder);
+  mp::divide_qr(mp::cpp_int(numerator << grid), denominator, quotient, remainder);
   if (remainder > 0) ++quotient;
   return quotient;
 }
+
+}  // namespace
+
+mp::cpp_int grid_steps_up(const Rational& value) { return steps_up(mp::numerator(value), mp::denominator(value)); }
 
 Rational of_grid_steps(const mp::cpp_int& steps) { return Rational(steps, mp::cpp_int(1) << grid); }
 
@@ -29,26 +31,24 @@ double ceiling(const Rational& value) {
   return nearest;
 }
 
+// Whole numbers of steps, of which each double is one: fractions that are kept in lowest terms are slow.
 Rational hold_stiffness(const MotorConstants& motor) {
-  Rational beta = Rational(motor.static_stiffness) / 2;
-  Rational rest = Rational(motor.step_stiffness);
-  mp::cpp_int more = 0,
-              less = 0;  // of all modes, in steps of the grid: fractions that are kept in lowest terms are slow
+  mp::cpp_int beta = grid_steps_up(Rational(motor.static_stiffness) / 2);
+  mp::cpp_int rest = grid_steps_up(Rational(motor.step_stiffness));
   for (const MotorMode& mode : motor.modes) {
-    const Rational a = exact_decay(motor, mode);
-    const Rational d = mode.position_drive;
+    const Rational decay = exact_decay(motor, mode), drive = mode.position_drive;
+    const mp::cpp_int a = mp::numerator(decay), of_a = mp::denominator(decay);
+    const mp::cpp_int d = mp::numerator(drive), of_d = mp::denominator(drive);
     if (a == 0) {
-      beta += d;
+      beta += grid_steps_up(drive);
       continue;
     }
-    const Rational c = d / a;
-    more += grid_steps_up(c / (1 + a));
-    less +=
-        grid_steps_up(-c);  // c rounded down: what is left comes out larger, never smaller in size by more than 2⁻¹²⁰⁰
+    // c = d/a. c/(1 + a) is rounded up, and c down: what is left of the rest comes out larger, never smaller in size by
+    // more than a step.
+    beta += steps_up(d * of_a * of_a, of_d * a * (of_a + a));
+    rest += steps_up(-d * of_a, of_d * a);
   }
-  beta += of_grid_steps(more);
-  rest += of_grid_steps(less);
-  return beta + abs(rest) + of_grid_steps(mp::cpp_int(motor.modes.size()));
+  return of_grid_steps(beta + abs(rest) + motor.modes.size());
 }
 
 }  // namespace dashpot::compiler

@@ -257,7 +257,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   times.enter("certificate");
   certify_law(result, choices);
-  if (result.network.map && !is_representable(result.law, result.network, diagnostics)) return std::nullopt;
+  if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   if (!result.port.is_ideal() && result.beyond_linear()) tell_of_certificate(result);
   tell_what_is_felt(result, present, choices, result.port);
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;

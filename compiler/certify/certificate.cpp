@@ -16,6 +16,7 @@
 #include "discretise/rounding.hpp"
 #include "law/add_damping.hpp"
 #include "law/cost.hpp"
+#include "law/representable.hpp"
 #include "lower/spell_out.hpp"
 
 namespace dashpot::compiler {
@@ -161,7 +162,7 @@ PassivityBound with_slips(PassivityBound bound, const SlipMotor& slips, const Sa
     return not_proved(
         "the motor's slew is limited, and its force jumps where a slip gives way or a contact begins or ends");
   if (slips.lets_go_by_estimate && loop.is_late())
-    return not_proved("the contact lets go by a velocity estimate, and the loop is late");
+    return not_proved(std::string("the contact lets go by a velocity estimate, and ") + why_late(loop));
   if (loop.amplifier_lag > 0) {
     bound.proof = Proof::sampled;
     bound.reason = "the amplifier lags";
@@ -367,11 +368,20 @@ Certificate certified(UpdateLaw& law, const SampledLoop& loop, const std::option
 
 }  // namespace
 
+Certificate beyond_numbers(const SampledLoop& loop) {
+  Certificate result;
+  result.loop = loop;
+  result.bound = not_proved("a number of it is beyond what its scalar can hold");
+  return result;
+}
+
 Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
+  if (!has_finite_numbers(law)) return beyond_numbers(loop);
   return certified(law, loop, slips, std::nullopt);
 }
 
 Certificate weighed_by_gap(UpdateLaw& law, const SampledLoop& loop, const SlipMotor& slips, double gap) {
+  if (!has_finite_numbers(law)) return beyond_numbers(loop);
   const MotorConstants linear = linear_motor_constants(law);
   const PassivityBound beside = bound_beside_slips_by_gap(linear, slips, loop, gap);
   return certified(law, loop, slips, bound_with_slips(beside, linear, slips, loop));

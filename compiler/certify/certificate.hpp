@@ -84,6 +84,9 @@ double brake_command(const PassivityBound& bound, const SampledLoop& loop, doubl
 // s. Without one it is reported only.
 Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips);
 
+// Of a law with a number that is not finite, which is not emitted.
+Certificate beyond_numbers(const SampledLoop& loop);
+
 // One or more lines on what is proved; `unit` of a damping.
 std::vector<std::string> passivity_lines(const Certificate& certificate, const std::string& unit);
 

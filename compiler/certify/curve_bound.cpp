@@ -12,12 +12,33 @@
 #include "certify/unproved.hpp"
 #include "discretise/law_writer.hpp"
 #include "discretise/rounding.hpp"
+#include "law/representable.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
 constexpr double margin = 1 + 1e-9;  // of sums in double, some thousand terms of them
 constexpr int stretches_of_cell = 8;
+constexpr std::size_t without_lag_of_coil = 0;  // of `coil_times`
+
+// How far the tool goes within a hold, and what a delay adds to it.
+double reach_of_hold(const SampledLoop& tool) {
+  return tool.tool_speed * tool.longest_hold() * (1.0 + tool.delay_samples);
+}
+
+// On both sides of where the curve begins it is the same.
+double flattest_within(const MotionMap& map, double from, double to) {
+  if (from < 0) return map.least_tangent(0, std::max(to, -from));
+  return map.least_tangent(from, to);
+}
+
+template <class Take>
+void each_stretch(const MotionMap& map, const SampledLoop& tool, Take take) {
+  const double width = map.width() / stretches_of_cell, farthest = tool.travel + std::abs(map.start);
+  for (std::size_t i = 0; i < map.cubics() * stretches_of_cell && double(i) * width <= farthest; ++i)
+    take(double(i) * width, double(i + 1) * width);
+  if (map.reach <= farthest) take(map.reach, map.reach);
+}
 
 std::string hindrance(bool estimate_drives_modes, const std::optional<SlipMotor>& slips, const SampledLoop& tool) {
   if (estimate_drives_modes || (slips && slips->held_compensation > 0))
@@ -108,60 +129,48 @@ class CurveNeed {
  public:
   // `stiffness`: β of the law behind the map.
   CurveNeed(HeldForces held, double stiffness, double damping, const Network& network, const SampledLoop& tool,
-            double coil_lag)
+            const std::vector<CurveStretch>& stretches, double coil_lag)
       : map_(*network.map),
         tool_(tool),
         held_(std::move(held)),
+        stretches_(stretches),
         stiffness_(stiffness),
         coil_lag_(coil_lag),
         brake_(damping) {
     is_one_sided_ = network.contact.has_value();
-    farthest_ = tool.travel + std::abs(map_.start);
     share_ = assured_share(tool).convert_to<double>();
   }
 
   // S + curvature − what the brake has, at the worst place, and beside it what a lag and an estimate cost.
   double lacking(double needed_behind, double cost_of_estimate) const {
     if (held_.is_stepwise) needed_behind = std::max(needed_behind, stiffness_ * tool_.longest_hold());
+    const std::vector<double> bends = costs_of_bends();
     double least = std::numeric_limits<double>::infinity();
-    const std::vector<BentStretch> bent = bent_stretches();
-    for (const double constants : {0.0, 1.0, 2.0, 4.0, 8.0}) {
-      if (coil_lag_ > 0 ? constants == 0 : constants > 0) continue;
-      least = std::min(least, lacking_with(needed_behind, constants, bent));
+    for (std::size_t i = 0; i < coil_times.size(); ++i) {
+      if ((coil_lag_ > 0) == (i == without_lag_of_coil)) continue;
+      least = std::min(least, lacking_with(needed_behind, i, bends));
     }
     return (least + cost_of_lag() + cost_of_estimate) * margin;
   }
 
  private:
-  // What is lacking there however long the coil has had.
-  struct BentStretch {
-    double from, to;
-    double steepest;  // w′ at most, of all that the tool may come to within a hold
-    double bend;      // what it costs that w′ changes meanwhile [N·s/m]
-  };
-
-  std::vector<BentStretch> bent_stretches() const {
-    const double hold = tool_.longest_hold(), reach = reach_of_hold();
-    std::vector<BentStretch> all;
-    each_stretch([&](double from, double to) {
-      const double before = std::max(from - reach, 0.0), after = to + reach;
-      const double steepest = map_.largest_tangent(before, after);
-      const double bend = hold * cost_of_bend(before, after, steepest, map_.largest_curvature(before, after), reach);
-      all.push_back({from, to, steepest, bend});
-    });
+  // Of each stretch, that w′ changes within a hold [N·s/m].
+  std::vector<double> costs_of_bends() const {
+    const double hold = tool_.longest_hold(), reach = reach_of_hold(tool_);
+    std::vector<double> all;
+    for (const CurveStretch& one : stretches_)
+      all.push_back(hold * cost_of_bend(std::max(one.from - reach, 0.0), one.to + reach, one.steepest,
+                                        one.largest_curvature, reach));
     return all;
   }
 
-  double reach_of_hold() const { return tool_.tool_speed * tool_.longest_hold() * (1.0 + tool_.delay_samples); }
-
-  double lacking_with(double needed_behind, double constants, const std::vector<BentStretch>& bent) const {
-    const double brake_reach = reach_of_hold() + constants * coil_lag_ * tool_.tool_speed;
-    const double settled = coil_lag_ > 0 ? std::pow(1 - std::exp(-constants), 2) : 1;
+  double lacking_with(double needed_behind, std::size_t time, const std::vector<double>& bends) const {
+    const double settled = coil_lag_ > 0 ? std::pow(1 - std::exp(-coil_times[time]), 2) : 1;
     double most = 0;
-    for (const BentStretch& one : bent) {
-      const double flattest = flattest_within(one.from - brake_reach, one.to + brake_reach);
-      most = std::max(most, needed_behind * one.steepest * one.steepest + one.bend -
-                                share_ * settled * brake_ * flattest * flattest);
+    for (std::size_t i = 0; i < stretches_.size(); ++i) {
+      const CurveStretch& one = stretches_[i];
+      most = std::max(most, needed_behind * one.steepest * one.steepest + bends[i] -
+                                share_ * settled * brake_ * one.flattest[time] * one.flattest[time]);
     }
     return most;
   }
@@ -209,18 +218,13 @@ class CurveNeed {
     return sum;
   }
 
-  // On both sides of where the curve begins it is the same.
-  double flattest_within(double from, double to) const {
-    if (from < 0) return map_.least_tangent(0, std::max(to, -from));
-    return map_.least_tangent(from, to);
-  }
-
   double cost_of_lag() const {
     if (tool_.amplifier_lag == 0 && tool_.write_latest == 0) return 0;
     const double steepest = map_.steepest();
     double most = 0;
-    each_stretch(
-        [&](double from, double to) { most = std::max(most, force(from, to) * map_.largest_curvature(from, to)); });
+    each_stretch(map_, tool_, [&](double from, double to) {
+      most = std::max(most, force(from, to) * map_.largest_curvature(from, to));
+    });
     return (stiffness_ * steepest * steepest + most / 2) * time_of_lateness(tool_);
   }
 
@@ -237,22 +241,14 @@ class CurveNeed {
     return std::max(across, map_.value_at(tool_.travel) - map_.value_at(from));
   }
 
-  template <class Take>
-  void each_stretch(Take take) const {
-    const double width = map_.width() / stretches_of_cell;
-    for (std::size_t i = 0; i < map_.cubics() * stretches_of_cell && double(i) * width <= farthest_; ++i)
-      take(double(i) * width, double(i + 1) * width);
-    if (map_.reach <= farthest_) take(map_.reach, map_.reach);
-  }
-
   const MotionMap& map_;
   const SampledLoop& tool_;
   HeldForces held_;
+  const std::vector<CurveStretch>& stretches_;
   double stiffness_;
   double coil_lag_;
   double brake_;  // b_w
   double share_;
-  double farthest_;    // that the tool goes from where the map begins
   bool is_one_sided_;  // behind a contact
 };
 
@@ -265,7 +261,7 @@ MotorLimits limits_behind_curve(const SampledLoop& tool, const Certificate& cert
   limits.unbounded = Unbounded::curve;
   limits.needed = certificate.bound.needed;
   if (!certificate.certified) limits.reason = "nothing is proved of it within the limit either";
-  else if (tool.is_late()) limits.reason = "its forces lie behind a static curve, and the loop is late";
+  else if (tool.is_late()) limits.reason = std::string("its forces lie behind a static curve, and ") + why_late(tool);
   limits.is_covered = limits.reason.empty();
   return limits;
 }
@@ -311,7 +307,7 @@ std::string hindrance_of_tunables(const Network& network, const BoxHold& held, c
   if (tool.amplifier_lag > 0 || tool.write_latest > 0)
     return "parameters change behind a static curve, and commands act late";
   if (tool.delay_samples > 0 && held.can_soften)
-    return "a spring's stiffness changes behind a static curve, and the loop is late: the force of a softer spring "
+    return "a spring's stiffness changes behind a static curve, and the loop is delayed: the force of a softer spring "
            "jumps, and the old one is held for more than a sample";
   return "";
 }
@@ -325,9 +321,24 @@ double yield_forces(const Network& network) {
   return sum;
 }
 
+std::vector<CurveStretch> curve_stretches(const MotionMap& map, const SampledLoop& tool, double coil_lag) {
+  const double reach = reach_of_hold(tool);
+  std::vector<CurveStretch> all;
+  each_stretch(map, tool, [&](double from, double to) {
+    const double before = std::max(from - reach, 0.0), after = to + reach;
+    CurveStretch one{from, to, map.largest_tangent(before, after), map.largest_curvature(before, after), {}};
+    for (std::size_t i = 0; i < coil_times.size(); ++i) {
+      const double brake_reach = reach + coil_times[i] * coil_lag * tool.tool_speed;
+      one.flattest[i] = flattest_within(map, from - brake_reach, to + brake_reach);
+    }
+    all.push_back(one);
+  });
+  return all;
+}
+
 PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Network& network,
                                   const std::optional<SlipMotor>& slips, const PortDevice& at_tool,
-                                  SampledLoop behind) {
+                                  const std::vector<CurveStretch>& stretches, SampledLoop behind) {
   const SampledLoop tool = sampled_loop(at_tool, behind.sample_period);
   if (const std::string why = hindrance(motor.estimate_drives_modes(), slips, tool); !why.empty())
     return not_proved(why);
@@ -347,7 +358,8 @@ PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Ne
   // Behind a contact the cut is of the springs that the motor's constants have.
   const double of_slips = slips && !network.contact ? slips->stiffness : 0;
   const double stiffness = hold_stiffness(motor).convert_to<double>() + of_slips;
-  const CurveNeed need(held_forces(motor, network, slips, tool), stiffness, damping, network, tool, at_tool.coil_lag());
+  const CurveNeed need(held_forces(motor, network, slips, tool), stiffness, damping, network, tool, stretches,
+                       at_tool.coil_lag());
   return lacking_beside(need.lacking(bound.needed, *of_estimate), damping, network, tool);
 }
 
@@ -355,7 +367,8 @@ namespace {
 
 // The same wherever parameters are in their ranges, and however they go there. Out: the law's least and largest b_w.
 PassivityBound bound_over_box(UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
-                              const PortDevice& at_tool, const SampledLoop& behind) {
+                              const PortDevice& at_tool, const std::vector<CurveStretch>& stretches,
+                              const SampledLoop& behind) {
   const SampledLoop tool = sampled_loop(at_tool, behind.sample_period);
   const MotionMap& map = *network.map;
   const BoxMotor box = box_motor(law, {Rational(behind.longest_hold()) / Rational(behind.sample_period),
@@ -373,7 +386,7 @@ PassivityBound bound_over_box(UpdateLaw& law, const Network& network, const std:
   const HeldForces forces = held_forces(held, tool, map.steepest());
   double stiffness = held.static_stiffness / 2;
   for (const HeldRelaxation& mode : held.relaxations) stiffness += mode.hold;
-  const CurveNeed need(forces, stiffness, box.least_brake, network, tool, at_tool.coil_lag());
+  const CurveNeed need(forces, stiffness, box.least_brake, network, tool, stretches, at_tool.coil_lag());
   const double needed = forces.is_stepwise ? 0 : box.needed;  // of a step by itself less is needed than of all together
   PassivityBound bound = lacking_beside(need.lacking(needed, *of_estimate), box.least_brake, network, tool);
   bound.any_value = bound.over_changes = true;
@@ -394,12 +407,14 @@ Certificate certify_behind_curve(UpdateLaw& law, const Network& network, const s
   const MotionMap& map = *network.map;
   const PortDevice at_tool = behind.at_tool();
   const SampledLoop tool = sampled_loop(at_tool, sample_period);
+  if (!has_finite_numbers(law)) return beyond_numbers(tool);
   Certificate result;
   result.loop = tool;
   const SampledLoop loop_behind = sampled_loop(behind, sample_period);
-  result.bound =
-      law.tunable ? bound_over_box(law, network, slips, at_tool, loop_behind)
-                  : bound_behind_curve(linear_motor_constants(law), law.damping, network, slips, at_tool, loop_behind);
+  const std::vector<CurveStretch> stretches = curve_stretches(map, tool, at_tool.coil_lag());
+  result.bound = law.tunable ? bound_over_box(law, network, slips, at_tool, stretches, loop_behind)
+                             : bound_behind_curve(linear_motor_constants(law), law.damping, network, slips, at_tool,
+                                                  stretches, loop_behind);
   result.bound.any_regime = slips.has_value();
   const double flattest = map.least_tangent(0, map.reach), rounding = 64 * unit_roundoff(law.scalar);
   const double least = law.damping * flattest * flattest * (1 - rounding);

@@ -28,6 +28,9 @@
 // curve softens.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "certify/certificate.hpp"
 #include "decompose/port_device.hpp"
 #include "network/network.hpp"
@@ -37,10 +40,25 @@ namespace dashpot::compiler {
 // Σ Y of the slips that forces can pass through [N].
 double yield_forces(const Network& network);
 
+// What the brake's coil has had of a command: in its time constants, of which a bound takes the best.
+inline constexpr std::array<double, 5> coil_times{0, 1, 2, 4, 8};
+
+// A stretch of the map, with all places that the tool may come to within a hold.
+struct CurveStretch {
+  double from, to;                                 // without those [m]
+  double steepest;                                 // the largest w′ [1]
+  double largest_curvature;                        // of |w″| [1/m]
+  std::array<double, coil_times.size()> flattest;  // the least w′ where the tool may have been so long before [1]
+};
+
+// All that the tool reaches of a map on a device.
+std::vector<CurveStretch> curve_stretches(const MotionMap& map, const SampledLoop& tool, double coil_lag);
+
 // What the brake is told is b w′², b being `damping`: the bound of what such a motor needs at the tool, the slowest
 // place for b being counted as if it were everywhere. `behind` is the loop behind the map.
 PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Network& network,
-                                  const std::optional<SlipMotor>& slips, const PortDevice& at_tool, SampledLoop behind);
+                                  const std::optional<SlipMotor>& slips, const PortDevice& at_tool,
+                                  const std::vector<CurveStretch>& stretches, SampledLoop behind);
 
 // By how much that is more than there is, as a brake behind the map sees it where the map is steepest; below 0 where
 // there is more [N·s/m].

@@ -27,7 +27,8 @@ Rational of_grid_steps(const mp::cpp_int& steps) { return Rational(steps, mp::cp
 
 double ceiling(const Rational& value) {
   double nearest = value.convert_to<double>();
-  while (Rational(nearest) < value) nearest = std::nextafter(nearest, std::numeric_limits<double>::infinity());
+  while (std::isfinite(nearest) && Rational(nearest) < value)
+    nearest = std::nextafter(nearest, std::numeric_limits<double>::infinity());
   return nearest;
 }
 

@@ -42,6 +42,12 @@ struct SampledLoop {
   bool may_overtake() const { return write_latest > 0 && write_latest > sample_period - jitter; }
 };
 
+// What makes a loop late; of several, what is the worst.
+inline const char* why_late(const SampledLoop& loop) {
+  if (loop.delay_samples > 0) return "the loop is delayed by \"delay_samples\"";
+  return loop.write_latest > 0 ? "commands act later than their samples" : "the amplifier lags";
+}
+
 // The same without jitter, every command at its latest.
 SampledLoop punctual(SampledLoop loop);
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "certify/convex_search.hpp"
-#include "certify/curve_bound.hpp"
 #include "certify/estimator_factors.hpp"
 #include "certify/proved_bound.hpp"
 #include "decompose/spectrum.hpp"
@@ -222,13 +221,16 @@ void CandidateSettler::assume_jitter_gap(double gap) {
 }
 
 // As if the law had no map, and lacked as much.
-PassivityBound CandidateSettler::behind_curve(MotorConstants motor, double damping) const {
+PassivityBound CandidateSettler::behind_curve(MotorConstants motor, double damping) {
   const PortDevice at_tool = device_.at_tool();
-  PassivityBound bound = bound_behind_curve(std::move(motor), damping, network_, slips_, at_tool, loop_);
+  const SampledLoop tool = sampled_loop(at_tool, loop_.sample_period);
+  if (curve_stretches_.empty()) curve_stretches_ = curve_stretches(*network_.map, tool, at_tool.coil_lag());
+  PassivityBound bound =
+      bound_behind_curve(std::move(motor), damping, network_, slips_, at_tool, curve_stretches_, loop_);
   if (bound.proof == Proof::none) return bound;
   const Rational brake = damping + (slips_ ? slips_->least_brake : 0);
-  bound.needed = assured_damping(loop_, brake).convert_to<double>() +
-                 lacking_behind_curve(bound, damping, *network_.map, sampled_loop(at_tool, loop_.sample_period));
+  bound.needed =
+      assured_damping(loop_, brake).convert_to<double>() + lacking_behind_curve(bound, damping, *network_.map, tool);
   return bound;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "certify/certificate.hpp"
+#include "certify/curve_bound.hpp"
 #include "certify/faithful_search.hpp"
 #include "linear/normal_form.hpp"
 
@@ -54,7 +55,7 @@ class CandidateSettler {
   std::optional<MotorConstants> motor_at(StateInput input, double damping);
   double gap_of(StateInput input) const;
   bool is_changed_by_look(StateInput input, double damping);
-  PassivityBound behind_curve(MotorConstants motor, double damping) const;
+  PassivityBound behind_curve(MotorConstants motor, double damping);
   void weigh(Candidate& candidate, StateInputMerit& merit);
   void take(Candidate& candidate, const StateInputMerit& merit);
   void make_room(Candidate& candidate);
@@ -71,6 +72,7 @@ class CandidateSettler {
   std::map<StateInput, std::optional<MotorConstants>> motors_;
   std::map<StateInput, std::unique_ptr<FeltError>> felt_;
   std::map<std::pair<StateInput, double>, double> looks_;  // at the gap of jitter, by damping
+  std::vector<CurveStretch> curve_stretches_;              // of the network's map, on the device
   std::map<StateInput, double> gaps_;                      // of the candidate that is settled
   std::optional<double> gap_;                              // of its state inputs that have not been looked at
   bool looks_at_gaps_ = true;

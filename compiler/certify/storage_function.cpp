@@ -458,7 +458,12 @@ class StorageSearch {
   }
 
   bool proves(const checker::Storage& storage, double damping) const {
-    return !is_proved_ || checker::proves(program_, device_, storage, damping);
+    const auto are_finite = [](const std::vector<double>& row) {
+      return std::all_of(row.begin(), row.end(), [](double entry) { return std::isfinite(entry); });
+    };
+    if (!is_proved_) return true;
+    return std::isfinite(damping) && std::all_of(storage.begin(), storage.end(), are_finite) &&
+           checker::proves(program_, device_, storage, damping);
   }
 
   // As doubles tell.

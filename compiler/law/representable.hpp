@@ -7,6 +7,8 @@
 
 namespace dashpot::compiler {
 
+bool has_finite_numbers(const UpdateLaw& law);
+
 // Refuses, each once, constants that are not finite after rounding.
 bool is_representable(const UpdateLaw& law, const Network& network, Diagnostics& diagnostics);
 

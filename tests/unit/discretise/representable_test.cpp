@@ -36,6 +36,20 @@ std::optional<Compilation> compiled_whole(const SourceFile& source, ScalarType s
   return compile(source, choices, std::nullopt, diagnostics);
 }
 
+// Fails if a number that set() or coupled slips begin with is written that is none.
+TEST(Representable, refuses_what_follows_from_parameters_and_slips) {
+  const SourceFile tuned("thin.json", R"({"dashpot": 1, "name": "thin",
+    "parameters": {"Y": {"value": 0.1, "tunable": true, "min": 0, "max": 1}},
+    "network": {"series": [{"slip": "Y"}, {"damper": 1e-312}]}})");
+  const SourceFile coupled("thin.json", R"({"dashpot": 1, "name": "thin", "network": {"series": [
+    {"slip": 1}, {"spring": 1e-39}, {"parallel": [{"slip": 1}, {"spring": 1}]}]}})");
+  for (const auto& [text, scalar] : {std::pair(&tuned, ScalarType::float64), {&coupled, ScalarType::float32}}) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(compiled_whole(*text, scalar, diagnostics));
+    EXPECT_NE(render_text(diagnostics).find("[constant-overflows]"), std::string::npos) << render_text(diagnostics);
+  }
+}
+
 // Fails if a parameter may be set to what the scalar cannot hold.
 TEST(Representable, refuses_ranges_beyond_the_scalar) {
   const SourceFile text(
@@ -58,6 +72,11 @@ TEST(Representable, is_not_certified_beyond_a_double) {
   ASSERT_TRUE(compilation);
   EXPECT_FALSE(compilation->certificate.certified);
   EXPECT_NE(compilation->certificate.bound.reason, "");
+  Choices choices;
+  choices.rate = 0.001;
+  const SourceFile held(
+      "held.json", R"({"dashpot": 1, "name": "held", "network": {"parallel": [{"spring": 1e308}, {"damper": 1}]}})");
+  EXPECT_FALSE(compile(held, choices, std::nullopt, diagnostics)->certificate.certified);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "law/representable.hpp"
 #include "lower/drop_unread.hpp"
 #include "lower/joint_law.hpp"
+#include "lower/spell_out.hpp"
 #include "syntax/parse_axes.hpp"
 
 namespace dashpot::compiler {
@@ -259,7 +260,7 @@ std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choi
   if (!compile_ports(c, asked, diagnostics)) return std::nullopt;
   c.certificate = certify_axes(c.network, certified_ports(c), c.device, c.rule);
   c.joint_ranges = known_ranges(c.device);
-  c.law = law_of_all(c);
+  c.law = begun_at_rest(law_of_all(c));
   Network whole;
   whole.name = c.network.name, whole.name_span = c.network.name_span;
   whole.port_motion = c.device.joint_motion();

@@ -13,6 +13,7 @@
 #include "law/representable.hpp"
 #include "lower/drop_unread.hpp"
 #include "lower/parallel_law.hpp"
+#include "lower/spell_out.hpp"
 #include "stage_times.hpp"
 
 namespace dashpot::compiler {
@@ -83,7 +84,8 @@ Device shared(Device device, const DeviceShare& share) {
   return device;
 }
 
-std::optional<std::vector<Compilation>> each_port(const Network& network, const Choices& choices,
+// What has been found of a port once is kept in `network`: the map of its curve.
+std::optional<std::vector<Compilation>> each_port(Network& network, const Choices& choices,
                                                   const std::optional<Device>& device,
                                                   const std::vector<DeviceShare>& shares, Diagnostics& diagnostics) {
   std::vector<Compilation> ports;
@@ -92,6 +94,7 @@ std::optional<std::vector<Compilation>> each_port(const Network& network, const 
     const std::optional<Device> own = device ? std::optional(shared(*device, shares[i])) : std::nullopt;
     std::optional<Compilation> port = compile(network.ports[i], choices, own, diagnostics, unseen);
     if (!port) return std::nullopt;
+    network.ports[i].map = port->network.map;
     port->share = shares[i];
     ports.push_back(std::move(*port));
   }
@@ -99,7 +102,7 @@ std::optional<std::vector<Compilation>> each_port(const Network& network, const 
 }
 
 // Each on the whole device first, to see what it would take of it.
-std::optional<std::vector<Compilation>> ports_on(const Network& network, const Choices& choices,
+std::optional<std::vector<Compilation>> ports_on(Network& network, const Choices& choices,
                                                  const std::optional<Device>& device, Diagnostics& diagnostics) {
   const std::vector<DeviceShare> whole(network.ports.size());
   if (!device) return each_port(network, choices, device, whole, diagnostics);
@@ -297,7 +300,7 @@ std::optional<Compilation> compile_ports(Network network, const Choices& asked, 
   const SampledLoop loop = sampled_loop(c.port, 1 / c.rate);
   PassivityBound bound = sum_of_bounds(*ports);
   const double added = added_for_all(*ports, bound, loop, asked.scalar);
-  c.law = without_unread_locals(parallel_law(laws, added, network.port_motion));
+  c.law = begun_at_rest(without_unread_locals(parallel_law(laws, added, network.port_motion)));
   c.certificate = certificate_of_all(*ports, std::move(bound), c.law, added, loop);
   c.decomposition = choice_of_all(*ports, with_names(asked, device || has_slips), c.certificate);
   c.network = std::move(network);

@@ -155,12 +155,21 @@ void Magnitudes::for_each_state(Action action) const {
       action(first(law_.variables.id_of(v)) + place);
 }
 
+// A step of coupled slips is bounded for each of them by itself.
+std::size_t Magnitudes::effort_of(const std::vector<Statement>& program) const {
+  std::size_t sum = program.size();
+  for (const Statement& statement : program)
+    if (const auto* solve = std::get_if<SolveTree>(&statement.step))
+      sum += static_cast<std::size_t>(law_.couplings[solve->coupling].operations());
+  return sum;
+}
+
 template <class Action>
 void Magnitudes::in_every_case(std::initializer_list<const std::vector<Statement>*> programs, Action action) {
   int count = 0;
   do {
     begin();
-    for (const std::vector<Statement>* program : programs) effort_ += program->size(), run(*program);
+    for (const std::vector<Statement>* program : programs) effort_ += effort_of(*program), run(*program);
     if (is_possible_) action();
   } while (cases_.next() && ++count < most_cases);
   if (count == most_cases) detail_ = Detail::none, cases_ = {}, in_every_case(programs, action);

@@ -77,7 +77,7 @@ class Magnitudes {
   void step();
   Anchors find_anchors();
   const Anchors& anchors() const { return anchors_; }
-  std::size_t effort() const { return effort_; }  // statements run so far, in all cases
+  std::size_t effort() const { return effort_; }  // statements and steps of coupled slips so far, in all cases
   double force();                                 // at most [N]
 
   // How far below 0 and how far above each may be, one after the other; of a force with an error that is carried along,
@@ -88,6 +88,7 @@ class Magnitudes {
  private:
   template <class Action>
   void for_each_state(Action action) const;
+  std::size_t effort_of(const std::vector<Statement>& program) const;
   template <class Action>
   void in_every_case(std::initializer_list<const std::vector<Statement>*> programs, Action action);
 

@@ -18,7 +18,7 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double offset_time = 0.1;  // [s], in which an offset goes home by 63 % where the tank pays
+const Real offset_time("0.1");  // [s], in which an offset goes home by 63 % where the tank pays
 
 const Parameter* tunable_of(const Network& network, const Element& element) {
   if (!element.parameter) return nullptr;
@@ -96,7 +96,7 @@ class TablesBuilder {
     TunableHead& head = tables_.head;
     head.rate = to_scalar(1 / period_);
     tables_.is_exact = choices_.scheme == Scheme::exact;
-    head.retention = to_scalar(exp(-period_ / Real(offset_time)));
+    head.retention = to_scalar(exp(-period_ / offset_time));
     tables_.least_share = is_double ? 0x1p-24 : 0x1p-10;
     tables_.brake = {brake_.follows,
                      to_scalar(Real(brake_.damping)),

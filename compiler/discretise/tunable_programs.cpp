@@ -23,7 +23,8 @@ constexpr std::string_view names_taken =
     "tables threshold scalar damping steady_damping added_damping sample_period parameters values clamped wanted self "
     "none surface_at encoder_step gap approach depth surface_change surface_now surface_recovery surface_back "
     "released pull opposing pushed_force position_change slips_force slips_feedthrough slips_brake slips_wanted "
-    "slips_gain share sampled shifted ";
+    "slips_gain share sampled shifted sampled_position sampled_position_change sampled_surface_back "
+    "sampled_surface_change sampled_brake sampled_share ";
 
 // The same of the map of a static curve (lower/behind_map.cpp).
 constexpr std::string_view names_of_map =

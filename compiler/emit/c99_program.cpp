@@ -583,7 +583,7 @@ class C99Printer {
           const std::string given = fmt::format("position[{}]", i);
           lines.push_back(fmt::format("const {} {} = {};", scalar(), name(joint, 0), finite_or_zero(given, given)));
         }
-    } else if (!law_.starts.empty()) {
+    } else if (!law_.start.empty()) {
       lines.push_back(fmt::format("position = {};", finite_or_zero("position", "position")));
     }
     return lines;
@@ -599,8 +599,8 @@ class C99Printer {
   }
 
   std::string rest_position() const {
-    return finite_or_zero("position",
-                          law_.started_at != no_variable ? law_.variables[law_.started_at].name : "position");
+    const std::string there = law_.started_at != no_variable ? law_.variables[law_.started_at].name : "position";
+    return finite_or_zero(there, there);
   }
 
   static const std::string& member(const Variable& variable, std::size_t place) {

@@ -281,11 +281,14 @@ class BatchPrinter {
   }
 
   std::string rest_value(const Variable& variable) const {
+    const auto finite = [&](VariableId started) {
+      return fmt::format("dashpot::all_finite({0}) ? {0} : scalar(0)", name(started, 0));
+    };
     for (const PortStart& start : law_.starts)
-      if (&law_.variables[start.state] == &variable) return name(start.value, 0);
+      if (&law_.variables[start.state] == &variable) return finite(start.value);
     if (law_.rest_position == no_variable || &variable != &law_.variables[law_.rest_position])
       return cpp_literal(variable.rest_value, law_.scalar);
-    return law_.started_at != no_variable ? name(law_.started_at, 0) : "position";
+    return law_.started_at != no_variable ? finite(law_.started_at) : "position";
   }
 
   std::vector<std::string> constants() const {

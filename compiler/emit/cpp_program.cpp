@@ -192,7 +192,7 @@ class CppPrinter {
     const bool rests = law_.rest_position != no_variable;
     if (!rests && law_.starts.empty()) lines.push_back("static_cast<void>(position);");
     else lines = law_.joints ? joint_starts() : statements_.lines_of(law_.start);
-    if (!rests && !law_.joints && !law_.starts.empty())
+    if (!law_.joints && !law_.start.empty())
       lines.insert(lines.begin(), "if (!dashpot::all_finite(position)) position = 0;");
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state || is_of_rest(law_.variables.id_of(variable))) continue;
@@ -200,8 +200,8 @@ class CppPrinter {
         lines.push_back(
             fmt::format("{0} = dashpot::all_finite({1}) ? {1} : 0;", CppStatements::scalar_name(variable), value));
       else if (rests && &variable == &law_.variables[law_.rest_position])
-        lines.push_back(fmt::format("{} = dashpot::all_finite(position, position, position) ? {} : 0;",
-                                    CppStatements::scalar_name(variable), rest_position()));
+        lines.push_back(CppStatements::scalar_name(variable) +
+                        " = dashpot::all_finite(position, position, position) ? position : 0;");
       else if (variable.size == 1)
         lines.push_back(fmt::format("{} = {};", CppStatements::scalar_name(variable), rest_value(variable)));
       else if (statements_.is_rolled(variable)) lines.push_back(clearing(variable));
@@ -231,14 +231,14 @@ class CppPrinter {
     return lines;
   }
 
-  // What reset() sets a state of a port to; empty for others.
+  // The local that reset() sets a state to; empty where there is none.
   std::string started(const Variable& state) const {
+    if (law_.started_at != no_variable && &state == &law_.variables[law_.rest_position])
+      return name_of(law_.started_at);
     for (const PortStart& start : law_.starts)
       if (&law_.variables[start.state] == &state) return name_of(start.value);
     return "";
   }
-
-  std::string rest_position() const { return law_.started_at != no_variable ? name_of(law_.started_at) : "position"; }
 
   std::string clearing(const Variable& variable) {
     uses_clear_ = true;

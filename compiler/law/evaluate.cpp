@@ -182,10 +182,13 @@ void Evaluation<Scalar>::reset(Scalar position) {
     if (variable.role == Role::tuned) continue;
     std::fill_n(at(law_.variables.id_of(variable)), variable.size, static_cast<Scalar>(variable.rest_value));
   }
-  if (law_.rest_position != no_variable && all_finite(position, position, position))
-    at(law_.rest_position)[0] = rest_position(position);
+  if (!all_finite(position)) position = 0;
+  if (law_.rest_position != no_variable) {
+    const Scalar there = rest_position(position);
+    at(law_.rest_position)[0] = all_finite(there) ? there : Scalar(0);
+  }
   if (!law_.joints && !law_.starts.empty()) {
-    at(law_.position)[0] = all_finite(position) ? position : Scalar(0);
+    at(law_.position)[0] = position;
     start();
   }
   std::fill(turns_.begin(), turns_.end(), 0);
@@ -241,6 +244,7 @@ void Evaluation<Scalar>::reset(const std::vector<Scalar>& positions) {
   for (std::size_t i = 0; i < positions.size(); ++i)
     at(law_.joints->positions[i])[0] = all_finite(positions[i]) ? positions[i] : Scalar(0);
   start();
+  run(rest_);
 }
 
 template <class Scalar>

@@ -53,25 +53,10 @@ class SpellingOut {
       spell_out(*program);
     }
     check_law(law_, "spelling out");
-    UpdateLaw law = without_unread_locals(std::move(law_));
-    law.scalar == ScalarType::float32 ? start<float>(law) : start<double>(law);
-    return law;
+    return without_unread_locals(std::move(law_));
   }
 
  private:
-  // What set() and reset() find for the values that are there to begin with, so that a new law needs neither.
-  template <class Scalar>
-  static void start(UpdateLaw& law) {
-    const Evaluation<Scalar> at_first(law);
-    for (Variable& variable : law.variables)
-      if (variable.role == Role::tuned) variable.rest_value = at_first.value_of(law.variables.id_of(variable));
-    for (const Statement& statement : law.rest)
-      each_assigned(law, statement, [&](VariableId assigned) {
-        Variable& variable = law.variables[assigned];
-        if (variable.role == Role::state) variable.rest_value = at_first.value_of(assigned);
-      });
-  }
-
   void find_given() {
     for (const Statement& statement : law_.tune)
       if (const auto* call = std::get_if<Call>(&statement.step); call && call->callee == Callee::set)
@@ -787,10 +772,25 @@ class SpellingOut {
              last_command_ = nothing, command_ = nothing, dent_ = nothing, returned_ = nothing;
 };
 
+template <class Scalar>
+void begin_at_rest(UpdateLaw& law) {
+  Evaluation<Scalar> at_first(law);
+  if (law.joints) at_first.reset(std::vector<Scalar>(law.joints->positions.size()));
+  else at_first.reset();
+  for (Variable& variable : law.variables)
+    if (variable.is_kept() && variable.size == 1)
+      variable.rest_value = at_first.value_of(law.variables.id_of(variable));
+}
+
 }  // namespace
 
 UpdateLaw spelled_out(UpdateLaw law, motion port_motion) {
-  return law.tunable ? SpellingOut(std::move(law), port_motion).result() : law;
+  return begun_at_rest(law.tunable ? SpellingOut(std::move(law), port_motion).result() : std::move(law));
+}
+
+UpdateLaw begun_at_rest(UpdateLaw law) {
+  law.scalar == ScalarType::float32 ? begin_at_rest<float>(law) : begin_at_rest<double>(law);
+  return law;
 }
 
 }  // namespace dashpot::compiler

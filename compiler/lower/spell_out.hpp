@@ -13,4 +13,8 @@ namespace dashpot::compiler {
 // Before this a law cannot be run or printed. Of a law without calls that law.
 UpdateLaw spelled_out(UpdateLaw law, motion port_motion);
 
+// With what set() and reset() at 0 find for the values that are there to begin with, so that a new object needs
+// neither.
+UpdateLaw begun_at_rest(UpdateLaw law);
+
 }  // namespace dashpot::compiler

@@ -11,6 +11,8 @@
 namespace points {
 
 constexpr int samples = 300;
+constexpr int new_ones = 3;      // so many points are not put to rest before, but begin as they are made,
+constexpr int put_nowhere = 37;  // and so many are put to rest where no position is
 
 template <class Scalar>
 bool same(Scalar a, Scalar b) {
@@ -87,15 +89,16 @@ struct Run {
         d(laws.size()),
         split_f(laws.size()),
         split_d(laws.size()) {
-    const scalar start = static_cast<scalar>(0.001);
+    dampings_of(batch, d.data(), points);
+    split_d = d;
+    if (points == new_ones) return;
+    const scalar start = points == put_nowhere ? std::numeric_limits<scalar>::quiet_NaN() : static_cast<scalar>(0.001);
     for (std::size_t i = 0; i < laws.size(); ++i) {
       laws[i].reset(start);
       timed[i].reset(start);
     }
     batch.reset(start);
     split.reset(start);
-    dampings_of(batch, d.data(), points);
-    split_d = d;
   }
 
   // With the largest value of each parameter, where there are some.

@@ -36,6 +36,9 @@ std::vector<std::string> networks(const fs::path& folder) {
     files.push_back(fmt::format(DASHPOT_NETWORKS "/paper/{}.json", name));
   for (const char* name : {"ligament", "skin_in_contact"})
     files.push_back(fmt::format(DASHPOT_NETWORKS "/static/{}.json", name));
+  files.push_back((folder / "pressed_at_0.json").string());
+  write_text(files.back(), R"({ "dashpot": 1, "name": "pressed_at_0", "contact": { "at": "-2 mm" },
+    "network": { "parallel": [ { "spring": 100 }, { "series": [ { "spring": 200 }, { "damper": 20 } ] } ] } })");
   for (std::uint64_t seed = 1; seed <= repetitions(4, 12); ++seed) {
     NetworkRecipe recipe;
     recipe.topology = seed % 2 == 0 ? Topology::tree : Topology::graph;
@@ -57,6 +60,10 @@ std::vector<std::string> tunable_networks(const fs::path& folder) {
     "parameters": { "K": { "value": 300, "tunable": true, "min": 30, "max": 900 },
                     "B": { "value": 3, "tunable": true, "min": 0, "max": 30 } },
     "network": { "parallel": [ { "spring": "K" }, { "damper": 1 }, { "series": [ { "spring": 200 }, { "damper": "B" } ] } ] } })");
+  files.push_back((folder / "pressed_at_0_tunable.json").string());
+  write_text(files.back(), R"({ "dashpot": 1, "name": "pressed_at_0_tunable", "contact": { "at": "-2 mm" },
+    "parameters": { "K": { "value": 300, "tunable": true, "min": 30, "max": 900 } },
+    "network": { "parallel": [ { "spring": "K" }, { "series": [ { "spring": "K" }, { "damper": 20 } ] } ] } })");
   files.push_back((folder / "rubbing.json").string());
   write_text(files.back(), R"({ "dashpot": 1, "name": "rubbing",
     "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 900 },
@@ -222,8 +229,16 @@ TEST(Points, are_single_networks_behind_a_slow_coil) {
   write_text(device, R"({ "dashpot_device": 1, "name": "coil", "motion": "translation", "loop": { "rate": "1 kHz" },
                           "encoder": { "resolution": "10 um" }, "velocity": { "estimator": "butterworth", "order": 2, "cutoff": "100 Hz" },
                           "brake": { "kind": "shorted_motor", "max_damping": "50 N s/m", "coil_lag": "20 ms" } })");
-  const std::vector<std::string> files = {DASHPOT_NETWORKS "/paper/visco_elasto_plastic.json"};
-  expect_agreement(folder, files, fmt::format("--device '{}' --decomposition gated", device));
+  const std::string tunable = (folder.path() / "rubbing_tunable.json").string();
+  write_text(tunable, R"({ "dashpot": 1, "name": "rubbing_tunable",
+    "parameters": { "K": { "value": 300, "tunable": true, "min": 30, "max": 900 } },
+    "network": { "parallel": [ { "series": [ { "slip": 0.01 }, { "parallel": [ { "spring": "K" }, { "damper": 2 } ] } ] },
+                               { "series": [ { "slip": 0.02 }, { "spring": 20 } ] }, { "damper": 5 } ] } })");
+  const std::string on_device = fmt::format("--uncertified --device '{}' --decomposition ", device);
+  expect_agreement(folder, {tunable}, on_device + "paper", Single::with_jumps);
+  EXPECT_NE(text_of(folder.path() / "plain/rubbing_tunable_batch.hpp").find("vector::square_root"), std::string::npos)
+      << "no root of the brake's damping is taken";
+  expect_agreement(folder, {DASHPOT_NETWORKS "/paper/visco_elasto_plastic.json"}, on_device + "gated");
   EXPECT_NE(text_of(folder.path() / "plain/visco_elasto_plastic_batch.hpp").find("coil_share"), std::string::npos)
       << "no command waits for the coil";
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <dashpot/branch_free.hpp>
+#include <dashpot/elementary.hpp>
 
 // Before a loop over the registers of one round: they are few, and each has its own partial sum.
 #if defined(__clang__)
@@ -123,6 +124,18 @@ class vector {
       return vector(packed_tag(), picked);
     } else {
       return vector(packed_tag(), table[static_cast<int>(v.value_)]);
+    }
+  }
+
+  // As the function of this name, place by place: processors that have no more than one root at a time do the same.
+  static vector square_root(vector v) noexcept {
+    if constexpr (count > 1) {
+      packed_type roots{};
+      DASHPOT_UNROLL
+      for (int i = 0; i < count; ++i) roots[i] = dashpot::square_root(v.value_[i]);
+      return vector(packed_tag(), roots);
+    } else {
+      return dashpot::square_root(v.value_);
     }
   }
 

@@ -27,7 +27,7 @@ std::vector<std::string> all_names(const UpdateLaw& law) {
   std::vector<std::string> all;
   for (const Variable& variable : law.variables)
     for (const std::string& name : names_in(variable.name, variable.element_names))
-      all.push_back(name + (variable.role == Role::state ? "_" : ""));
+      all.push_back(name + (variable.is_kept() ? "_" : ""));
   for (const Coefficient& coefficient : law.coefficients)
     for (const std::string& name : names_in(coefficient.name, coefficient.element_names)) all.push_back(name);
   return all;
@@ -110,6 +110,38 @@ TEST(Names, the_class_and_its_members) {
     }
   }
   EXPECT_NO_THROW(branches("K1_B1", {{"K1", "B1"}}));
+}
+
+// Fails if a parameter can take a name that the law has for something of its own.
+TEST(Names, parameters_called_like_anything_in_the_law) {
+  const std::vector<std::string> beside = {"", R"("contact": { "at": 0.001 },)",
+                                           R"("static": { "power": 2, "force": "1 N", "at": "5 mm" },)"};
+  const std::vector<std::string> slips = {"", R"(, { "series": [ { "slip": 0.1 }, { "spring": 50 } ] })",
+                                          R"(, { "series": [ { "slip": 0.1 }, { "parallel": [
+                                               { "spring": 50 }, { "slip": 0.2 } ] } ] })"};
+  const auto text = [&](const std::string& parameter, std::size_t i, std::size_t j) {
+    return fmt::format(R"({{ "dashpot": 1, "name": "tuned", {1} "parameters": {{
+                             "{0}": {{ "value": 300, "tunable": true, "min": 30, "max": 900 }} }},
+                           "network": {{ "parallel": [ {{ "spring": "{0}" }}, {{ "series": [ {{ "spring": "{0}" }},
+                             {{ "damper": 2 }} ] }}{2} ] }} }})",
+                       parameter, beside[i], slips[j]);
+  };
+  std::size_t accepted = 0;
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    for (std::size_t j = 0; j < slips.size(); ++j) {
+      const Compiled law(text("K", i, j));
+      for (std::string name : all_names(law.law())) {
+        if (name.back() == '_') name.pop_back();
+        try {
+          EXPECT_EQ(complaint_about_names(*Compiled(text(name, i, j)).operator->()), "") << name;
+          ++accepted;
+        } catch (const std::invalid_argument& refusal) {
+          EXPECT_NE(std::string(refusal.what()).find("'" + name + "'"), std::string::npos) << refusal.what();
+        }
+      }
+    }
+  }
+  EXPECT_GT(accepted, 100u);
 }
 
 // Fails if unnamed elements in random networks, whose modes come from many elements, collide.

@@ -579,6 +579,7 @@ ExitStatus answer(const CLI::App& app, const CLI::ParseError& error, bool in_jso
 
 int main(int argc, char** argv) {
   CLI::App app("Compiles networks of springs, dampers and slips into update laws for haptic devices", "dashpot");
+  app.option_defaults()->disable_flag_override();  // --batch=7 is a mistake
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   CommandLine line;

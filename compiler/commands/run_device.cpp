@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include "commands/commands.hpp"
@@ -106,8 +107,16 @@ void add_to_source(nlohmann::ordered_json& json, const BladeWords& blade, bool w
   json["source"] = source.empty() ? made : source + "; " + made;
 }
 
-std::string filled_text(const SourceFile& file, const FilledBrake& brake, const BladeWords& blade, bool rotary) {
+// It is another device than that of the file before, and so takes the name of the file that is written.
+void name_after(nlohmann::ordered_json& json, const std::optional<std::string>& output) {
+  const std::filesystem::path path = output.value_or("");
+  if (path.extension() == ".json") json["name"] = path.stem().string();
+}
+
+std::string filled_text(const SourceFile& file, const FilledBrake& brake, const Options& options, bool rotary) {
+  const BladeWords& blade = options.blade;
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(file.text());
+  name_after(json, options.output);
   const bool without_constant =
       !brake.damping_per_current_squared && json["brake"].contains("damping_per_current_squared");
   add_to_source(json, blade, without_constant);
@@ -143,8 +152,7 @@ ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& d
   files.keep(words.take_sources());
   if (!brake) return ExitStatus::input_refused;
   const SourceFile* file = files.open(*options.device, diagnostics);
-  const std::string text =
-      filled_text(*file, *brake, options.blade, device.device->description.motion == motion::rotation);
+  const std::string text = filled_text(*file, *brake, options, device.device->description.motion == motion::rotation);
   // All other commands have to take it.
   if (!read_device(files.keep(*options.device + " with this blade", text), diagnostics))
     return ExitStatus::input_refused;

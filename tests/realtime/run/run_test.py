@@ -414,6 +414,15 @@ class Blade(unittest.TestCase):
         self.assertIn("[wrong-unit]", result.stderr)
         self.assertEqual(result.stdout, "")
 
+    def test_file_that_is_written_names_the_device(self):
+        """Fails if two devices have one name, so that a header compiled for one claims the other."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "my_rig.json")
+            self.assertEqual(self.fill("-o", path).returncode, 0)
+            with open(path) as stream:
+                self.assertEqual(json.load(stream)["name"], "my_rig")
+        self.assertEqual(json.loads(self.fill().stdout)["name"], "pantograph_brake_2009")
+
     def test_blade_that_the_rest_does_not_fit_is_refused(self):
         """Fails if a device file is written that no other command takes."""
         with open(device("pantograph_brake_2009")) as stream:

@@ -226,6 +226,11 @@ bool are_late(const AxesDevice& device) {
                      [](const device_description& joint) { return joint.motor.amplifier_lag > 0; });
 }
 
+const char* why_late(const AxesDevice& device) {
+  if (device.loop().delay_samples > 0) return "the loop is delayed by \"delay_samples\"";
+  return device.loop().write_latest > 0 ? "commands act later than their samples" : "the amplifiers lag";
+}
+
 std::string uncovered_in_device(const AxesDevice& device) {
   for (const device_description& joint : device.joints)
     if (joint.motor.slew > 0) return "the motors' slew is limited, which no bound of two axes covers yet";
@@ -242,8 +247,8 @@ std::string uncovered_in_ports(const std::vector<CertifiedPort>& ports, const Ax
     if (varies(port)) return of_port + "its damping changes with its slips, which no bound of two axes covers yet";
     if (!port.slips || !are_late(device)) continue;
     if (port.slips->lets_go_by_estimate)
-      return of_port + "the contact lets go by a velocity estimate, and the loop is late";
-    if (!port.slips->springs_alone) return of_port + "dampers are behind its slips, and the loop is late";
+      return of_port + "the contact lets go by a velocity estimate, and " + why_late(device);
+    if (!port.slips->springs_alone) return of_port + "dampers are behind its slips, and " + why_late(device);
   }
   return "";
 }
@@ -673,9 +678,8 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
   for (std::size_t k = 0; k < c.added.size(); ++k) added += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", c.added[k]);
   if (c.share)
     lines.push_back(
-        fmt::format("  what the motors make of the ports' damping, from estimates, takes any lateness that both joints "
-                    "share in {:.3g} % "
-                    "of the workspace",
+        fmt::format("  where the motors make damping from velocity estimates, no delay that both joints share costs "
+                    "passivity in {:.3g} % of the workspace",
                     100 * c.share->delay_proof));
   if (c.adds())
     lines.push_back(

@@ -31,8 +31,8 @@ class Box : private BoxNumbers {
     if (brakes.empty())
       return nothing_for(
           "the brake follows the damping of elements that lie neither beside each other nor in series, and nothing "
-          "bounds that over the ranges of the parameters; of a brake that keeps its damping, as with --decomposition "
-          "0, it is known what it needs");
+          "bounds that over the ranges of the parameters; with a brake whose damping does not change, as with "
+          "--decomposition 0, there is a bound");
     const Affine asked = needed();
     std::optional<Rational> worst;  // below 0 where more is there than is needed
     Rational least_brake = std::max(Rational(0), least(brakes.front())), largest_brake = 0, largest_gain = 0;

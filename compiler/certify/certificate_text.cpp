@@ -21,7 +21,7 @@ std::string covered(const Certificate& c) {
   if (c.bound.proof == Proof::sampled)
     return fmt::format("any motion{}, samples at {:.6g} Hz{}", regimes, 1 / c.loop.sample_period, jitter);
   const char* brake = c.bound.any_regime || c.bound.any_value ? "least command" : "command";
-  return "any motion" + regimes + jitter + ", however the brake changes above its " + brake;
+  return "any motion" + regimes + jitter + ", any damping of the brake that is not below its " + brake;
 }
 
 std::string requirement(const Certificate& c, const std::string& unit) {
@@ -77,7 +77,9 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
   std::vector<std::string> lines = {"passivity: " + verdict(c, unit)};
   if (!c.loop.has_device)
     lines.push_back(
-        "  on an ideal device with the difference of two samples for a velocity; nothing is added for passivity");
+        "  without a device an ideal one is assumed, with the difference of two samples for the velocity, and no "
+        "damping "
+        "is added for passivity");
   if (c.added_damping > 0)
     lines.push_back(fmt::format(
         "  of the brake's command {:.6g} {} are for passivity and not compensated: what is rendered is D + {:.6g} s",

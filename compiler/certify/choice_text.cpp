@@ -53,7 +53,7 @@ std::string against_paper(const Candidate& choice, const Candidate& paper, const
   const double difference = paper.damping - choice.damping;
   if (!is_same(choice.damping, paper.damping))
     text += fmt::format("; its brake makes {:.3g} {} {}", std::abs(difference), units.damping,
-                        difference > 0 ? "of damping that the motor makes here" : "less");
+                        difference > 0 ? "more" : "less");
   return text + ".";
 }
 
@@ -76,6 +76,12 @@ std::string idle_brake(const Candidate& choice, const ChosenFor& what) {
 }
 
 }  // namespace
+
+std::string at_any_delay(const Candidate& choice, const std::string& unit) {
+  const double extra = choice.extra_damping_any_delay.value_or(0);
+  return (extra > 0 ? fmt::format("with {:.6g} {} of extra damping ", extra, unit) : std::string()) +
+         "passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes";
+}
 
 std::string in_percent(double share) {
   const double percent = 100 * share;

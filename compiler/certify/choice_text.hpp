@@ -29,6 +29,9 @@ std::string choice_in_words(const Decomposition& decomposition, const ChosenFor&
 // Which state input `faithful` came with.
 std::string reason_for_faithful(const Candidate& chosen, const Network& network, const Choices& choices);
 
+// What an estimate of the velocity costs a choice, however late it is.
+std::string at_any_delay(const Candidate& choice, const std::string& unit);
+
 // A share in per cent, without an exponent: "1346", "5.65".
 std::string in_percent(double share);
 

@@ -55,9 +55,10 @@ Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& sli
   const bool is_late = loop.is_late();
   // What a ramp takes back its own excess pays for, as long as it acts on the same hold.
   add_estimate(slips->compensation + (is_late ? slips->held_compensation : 0), loop, gains);
-  if (is_late && !slips->springs_alone) gains.hindrance = "dampers are behind the slips, and the loop is late";
+  if (is_late && !slips->springs_alone)
+    gains.hindrance = fmt::format("dampers are behind the slips, and {}", why_late(loop));
   if (is_late && slips->lets_go_by_estimate)
-    gains.hindrance = "the contact lets go by an estimate, and the loop is late";
+    gains.hindrance = fmt::format("the contact lets go by an estimate, and {}", why_late(loop));
   return gains;
 }
 
@@ -212,7 +213,7 @@ MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<d
   limits.unbounded = Unbounded::tunables;
   if (!needed) limits.reason = "nothing is proved of it within the limit either";
   else if (loop.motor_slew > 0) limits.reason = "its force may have to fall faster than the motor's slew";
-  else if (loop.is_late()) limits.reason = "its parameters change while it runs, and the loop is late";
+  else if (loop.is_late()) limits.reason = fmt::format("its parameters change while it runs, and {}", why_late(loop));
   else limits.needed = *needed;
   if (Rational(limits.needed) > assured) limits.available = assured.convert_to<double>();
   limits.is_covered = limits.reason.empty() && !limits.available;
@@ -221,7 +222,7 @@ MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<d
 
 std::string why_not_covered(const MotorLimits& limits, const std::string& unit) {
   if (!limits.available) return limits.reason;
-  return fmt::format("counted sample by sample it needs {:.6g} {} of damping in all, and {:.6g} is there",
+  return fmt::format("there {:.6g} {} of damping are needed, which is counted sample by sample, and {:.6g} is there",
                      limits.needed, unit, *limits.available);
 }
 
@@ -265,11 +266,11 @@ std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& 
                     *limits.largest_discontinuity, units.force));
   if (limits.rule == LimitRule::none) return lines;
   const char* does =
-      limits.rule == LimitRule::sheds ? "the law sheds, which shrinks all its forces by one share" : "the motor clips";
+      limits.rule == LimitRule::sheds ? "the law sheds, which scales all its forces down together" : "the motor clips";
   lines.push_back(limits.is_covered
-                      ? fmt::format("at the limit: {}, and no energy comes of it with the {:.6g} {} that it needs",
-                                    does, limits.needed, units.damping)
-                      : fmt::format("at the limit: {}; that no energy comes of it is not proved: {}", does,
+                      ? fmt::format("at the motor's limit: {}, which is passive with the {:.6g} {} that it needs", does,
+                                    limits.needed, units.damping)
+                      : fmt::format("at the motor's limit: {}; that this is passive is not proved: {}", does,
                                     why_not_covered(limits, units.damping)));
   return lines;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "certify/choice_text.hpp"
 #include "certify/notes.hpp"
 #include "commands/explain.hpp"
 #include "emit/banner.hpp"
@@ -161,7 +162,7 @@ std::string notes_text(const Compilation& c) {
 std::string cost_text(const Compilation& c) {
   const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
   std::string text = fmt::format(
-      "cost                  output {} + {} multiplications, update {} + {} and {} guards, {} states\n",
+      "cost                  output {} additions and {} multiplications, update {} and {} with {} guards, {} states\n",
       output.additions, output.multiplications, update.additions, update.multiplications, update.guards, output.states);
   if (output.coupled > 0)
     text += fmt::format("coupled slips         at most {} additions, multiplications and divisions in output\n",
@@ -337,10 +338,7 @@ std::string choice_text(const Compilation& c, const PortUnits& units, bool with_
   const std::string slips = to_text(c.decomposition.slips, c.network);
   text += slips;
   if (with_legend && !slips.empty()) text += "\n" + legend_of_slips(slips) + "\n";
-  text += fmt::format(
-      "any delay             {:.6g} {} of extra damping keep an exact brake passive under any delay of the estimate, "
-      "sampling aside\n",
-      choice.extra_damping_any_delay.value_or(0), units.damping);
+  text += "any delay             " + at_any_delay(choice, units.damping) + "\n";
   if (c.network.contact)
     text += "contact               " + contact_text(c.decomposition, c.network) + "\n" + why_no_brake(c, units);
   return text;

@@ -102,11 +102,14 @@ class Decomposer {
     if (device_.is_ideal()) {
       Split split = observed("paper", ObserverRule::most_dissipative);
       split.name = "faithful";
-      split.reason = "no device to be faithful on, so the paper's rule: " + split.reason;
+      split.reason = "without a device 'faithful' is the paper's rule: " + split.reason;
       return split;
     }
     const double feedthrough = to_double(form_.feedthrough_damping);
-    return {"faithful", feedthrough, "the most damping with which the tissue still feels like itself", {}};
+    return {"faithful",
+            feedthrough,
+            "the most damping with an error of what is felt that is allowed, or close to the least where none is",
+            {}};
   }
 
   bool has_slips() const {

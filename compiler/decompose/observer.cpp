@@ -159,14 +159,17 @@ class Observer {
       names += (names.empty() ? "" : " - ") + names_in(member.tree, network_);
     if (names.size() > 60) names = names.substr(0, 57) + "...";
     const double damping = to_double(observed.damping);
-    if (groups.size() == 1) clauses_.push_back(fmt::format("{} in series act as one of {:.6g}", names, damping));
+    if (groups.size() == 1)
+      clauses_.push_back(fmt::format("{} in series act as one of {:.6g} {}", names, damping, unit()));
     else if (rule_ == ObserverRule::largest)
-      clauses_.push_back(fmt::format("in series the largest damping, {:.6g}, is that of {}", damping, names));
+      clauses_.push_back(fmt::format("in series the largest damping is the {:.6g} {} of {}", damping, unit(), names));
     else
       clauses_.push_back(
           fmt::format("in series, {} turns {:.4g} % of the energy into heat at {}, and the brake follows it", names,
                       share_of(observed, groups), where()));
   }
+
+  std::string unit() const { return port_units(network_.port_motion).damping; }
 
   std::string where() const {
     return reference_ > 0 ? fmt::format("{:.6g} rad/s", to_double(reference_)) : std::string("low frequency");

@@ -71,9 +71,9 @@ std::string PartDecomposer::refusal_of(SlipLaw law, const SlipPlan& plan) const 
   if (law == SlipLaw::velocity_free || law == SlipLaw::by_motor) return hindrance_to_choice();
   if (!hindrance_to_choice().empty()) return hindrance_to_choice();
   if (law == SlipLaw::gated)
-    return part_.gated.empty()
-               ? largest_excess() > 0 ? "no damper lies beside a slip" : "what slides has no damping but at the tool"
-               : "";
+    return part_.gated.empty() ? largest_excess() > 0 ? "no damper lies beside a slip"
+                                                      : "the only damping of what slides is at the tool"
+                               : "";
   if (largest_excess() <= 0) return "what slides has no more damping than what holds";
   if (law == SlipLaw::steady) {
     if (behind_contact_) return "the brake lets go of a free tool, so that nothing is steady";

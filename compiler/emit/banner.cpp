@@ -6,6 +6,7 @@
 #include <cmath>
 #include <dashpot/estimators/estimator_names.hpp>
 
+#include "certify/choice_text.hpp"
 #include "decompose/slip_laws.hpp"
 #include "law/cost.hpp"
 #include "source/wrapped_text.hpp"
@@ -156,9 +157,7 @@ void describe_choice(const Compilation& c, const std::string& unit, std::vector<
                               c.decomposition.reason));
   if (!c.decomposition.in_words.empty()) facts.push_back("choice: " + c.decomposition.in_words);
   if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
-  facts.push_back(fmt::format(
-      "late velocity: with {:.6g} {} more in an exact brake, no lateness of the estimate alone costs passivity",
-      choice.extra_damping_any_delay.value_or(0), unit));
+  facts.push_back("late velocity: " + at_any_delay(choice, unit));
 }
 
 void describe_ports(const Compilation& c, const std::string& unit, std::vector<std::string>& facts) {

@@ -29,8 +29,8 @@ const char* const words_of_ports =
     "hand no more energy than it got; certified, what is proved to be passive";
 
 std::string rule_line(const AxesCompilation& c) {
-  const char* what = c.rule == axes::BrakeRule::diagonal
-                         ? "the brakes make the diagonal of B*, the motors what couples the joints"
+  const char* what = c.rule == axes::BrakeRule::diagonal ? "each brake makes the damping of its joint, and the motors "
+                                                           "the forces by which one joint's velocity acts on the other"
                      : c.rule == axes::BrakeRule::non_injecting
                          ? "the brakes make as much of B* as leaves the motors nothing to inject"
                          : "the motors make all of B*";
@@ -40,7 +40,7 @@ std::string rule_line(const AxesCompilation& c) {
 std::string share_line(const axes::ShareMap& share) {
   return fmt::format(
       "share: of the ports' damping the brakes make {:.3g} % in the median over the workspace, {:.3g} % at least, at "
-      "({:.4g}, {:.4g}) mm, in motions alike in all directions",
+      "({:.4g}, {:.4g}) mm, averaged over all directions of motion",
       100 * share.median, 100 * share.worst, 1e3 * share.worst_at[0], 1e3 * share.worst_at[1]);
 }
 

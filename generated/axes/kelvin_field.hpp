@@ -6,9 +6,10 @@
 // kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16, of joints that stay within
 //   their encoders' ranges
 // scheme: exact at 10000 Hz, double; what is kept of the past follows the measured position
-// brakes: by the rule 'diagonal' the brakes make the diagonal of B*, the motors what couples the joints
+// brakes: by the rule 'diagonal' each brake makes the damping of its joint, and the motors the forces by which one
+//   joint's velocity acts on the other
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 100 % at least, at (-11,
-//   100.6) mm, in motions alike in all directions
+//   100.6) mm, averaged over all directions of motion
 // passivity: certified for any motion in the workspace, while the motors make their torques: what the motors hold
 //   from one sample to the next needs 0.00428038 and 0.00428038 N·m·s/rad of damping at the joints; their own
 //   damping and the brakes' share of the network's leave 0.00421049 and 0.00421049 N·m·s/rad of it to be added,
@@ -16,8 +17,8 @@
 //   of what is needed, 0.00345047 and 0.00345047 N·m·s/rad are for what the motors make of estimated velocities,
 //   however late
 //   of what is needed, 0.000771214 and 0.000771214 N·m·s/rad are for the lag of the motors' amplifiers
-//   what the motors make of the ports' damping, from estimates, takes any lateness that both joints share in 100 %
-//   of the workspace
+//   where the motors make damping from velocity estimates, no delay that both joints share costs passivity in 100
+//   % of the workspace
 //   added to the brakes' commands for it: 0.00446149, 0.00446149 N m s/rad; felt at the tip: up to 3.62 N s/m more
 // device: pantograph_2dof
 // cost of output(): 68 additions, 78 multiplications, 2 selections, 0 guards against subnormal numbers
@@ -45,7 +46,7 @@ class kelvin_field {
   static constexpr dashpot::motion port_motion = dashpot::motion::rotation;  // of the joints
 
   // Of each brake's command the part that is there for passivity alone [N·m·s/rad].
-  static constexpr scalar added_damping[brakes] = {0.004461485602175938, 0.004461485602175938};
+  static constexpr scalar added_damping[brakes] = {0.0044614856021759405, 0.0044614856021759405};
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {
@@ -378,12 +379,12 @@ class kelvin_field {
   static constexpr scalar quarter = 0.25;  // 1/4 [1]
   static constexpr scalar half_base = 0.0125;  // half of that [m]
   static constexpr scalar out_offset = 0.1;  // of the plane from the origin [m]
-  static constexpr scalar most_damping_1 = 0.009538514397824063;  // that the brake gives, less what is added [N·m·s/rad]
-  static constexpr scalar added_damping_1 = 0.004461485602175938;  // for passivity alone [N·m·s/rad]
+  static constexpr scalar most_damping_1 = 0.00953851439782406;  // that the brake gives, less what is added [N·m·s/rad]
+  static constexpr scalar added_damping_1 = 0.0044614856021759405;  // for passivity alone [N·m·s/rad]
 
-  scalar across_last_position_ = 0;  // u of the sample before [m]
+  scalar across_last_position_ = 0.06299999990746864;  // u of the sample before [m]
   scalar across_sampled_position_ = 0;  // port displacement u, at this sample [m]
-  scalar out_last_position_ = 0;  // u of the sample before [m]
+  scalar out_last_position_ = -0.026049002726895476;  // u of the sample before [m]
   scalar out_sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar sampled_damping_1_ = 0;  // of brake 1, at this sample [N·m·s/rad]
   scalar sampled_damping_2_ = 0;  // of brake 2, at this sample [N·m·s/rad]

@@ -6,18 +6,19 @@
 // kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16, of joints that stay within
 //   their encoders' ranges
 // scheme: exact at 10000 Hz, double; what is kept of the past follows the measured position
-// brakes: by the rule 'diagonal' the brakes make the diagonal of B*, the motors what couples the joints
+// brakes: by the rule 'diagonal' each brake makes the damping of its joint, and the motors the forces by which one
+//   joint's velocity acts on the other
 // share: of the ports' damping the brakes make 109 % in the median over the workspace, 71.1 % at least, at (-1,
-//   119.4) mm, in motions alike in all directions
-// passivity: not certified, since port 'ball': the contact lets go by a velocity estimate, and the loop is late:
+//   119.4) mm, averaged over all directions of motion
+// passivity: not certified, since port 'ball': the contact lets go by a velocity estimate, and the amplifiers lag:
 //   what the motors hold from one sample to the next needs 0.0446642 and 0.0446642 N·m·s/rad of damping at the
 //   joints; their own damping and the brakes' share of the network's leave 0.0445944 and 0.0445944 N·m·s/rad of it
 //   to be added, most at (-22.97, 120) mm
 //   of what is needed, 0.00743716 and 0.00743716 N·m·s/rad are for what the motors make of estimated velocities,
 //   however late
 //   of what is needed, 0.0336727 and 0.0336727 N·m·s/rad are for the lag of the motors' amplifiers
-//   what the motors make of the ports' damping, from estimates, takes any lateness that both joints share in 100 %
-//   of the workspace
+//   where the motors make damping from velocity estimates, no delay that both joints share costs passivity in 100
+//   % of the workspace
 //   added to the brakes' commands for it: 0.01398, 0.01398 N m s/rad, all that they can give; felt at the tip: up
 //   to 11.3 N s/m more
 // device: pantograph_2dof

@@ -4,15 +4,16 @@
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
 // brake: makes the damping that follows of each slip, and the motor the rest of the force
-// behind Y1; Y2; Y3; Y4 and 6 more: velocity-free, what slides has no damping but at the tool; b = 0 N·s/m stuck,
-//   0 sliding
+// behind Y1; Y2; Y3; Y4 and 6 more: velocity-free, the only damping of what slides is at the tool; b = 0 N·s/m
+//   stuck, 0 sliding
 // states: what is kept of the past follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
-// passivity: not certified for any motion, whatever slides, sticks, touches or lets go, however the brake changes
-//   above its least command: needs 0.775 N·s/m, counted sample by sample over a hold of up to 0.001 s, at least 0
-//   N·s/m is there, 0.775 N·s/m more is missing in the brake's command
-//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
+// passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any damping of the brake
+//   that is not below its least command: needs 0.775 N·s/m, counted sample by sample over a hold of up to 0.001 s,
+//   at least 0 N·s/m is there, 0.775 N·s/m more is missing in the brake's command
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
 //   rounding adds at most 3.9e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the

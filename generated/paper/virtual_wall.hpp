@@ -8,10 +8,11 @@
 // states: what is kept of the past follows the measured position (position driven, as a network with a contact
 //   always is)
 // contact: at 0 m; brake and motor 0 while the tool is free
-// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
+// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
 // passivity: not certified: the brake leaves a free tool alone, so that in the sample of the touch only the
 //   device's own damping acts; 10.25 N·s/m of damping are needed, at least 0 is there
-//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
 //   rounding adds at most 1.1e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
@@ -53,9 +54,10 @@ class virtual_wall {
 
   // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
+    if (!dashpot::all_finite(position)) position = 0;
     // s = (u − u0)⁺
     const scalar pushed_in = position > 0 ? position : none;
-    surface_ = dashpot::all_finite(position, position, position) ? pushed_in : 0;
+    surface_ = dashpot::all_finite(pushed_in) ? pushed_in : 0;
     sampled_brake_ = 0;
     sampled_surface_now_ = 0;
     sampled_ = false;

@@ -8,11 +8,12 @@
 //   7.69e-05 %; b = 3.3 N·s/m stuck, 3.3 sliding
 // states: what is kept of the past follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
-// passivity: certified for any motion, whatever slides, sticks, touches or lets go, however the brake changes
-//   above its least command: needs 3.05676 N·s/m, counted sample by sample over a hold of up to 0.001 s, at least
-//   3.3 N·s/m is there
-//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
+// passivity: certified for any motion, whatever slides, sticks, touches or lets go, any damping of the brake that
+//   is not below its least command: needs 3.05676 N·s/m, counted sample by sample over a hold of up to 0.001 s, at
+//   least 3.3 N·s/m is there
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
 //   rounding adds at most 1.9e-14 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the

@@ -8,11 +8,12 @@
 //   the tool in parallel add
 // states: what is kept of the past follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
-// passivity: not certified for any motion, however the brake changes above its command: needs 0.0402 N·s/m,
-//   counted sample by sample over a hold of up to 0.001 s, at least 0.024 N·s/m is there, 0.0162 N·s/m more is
-//   missing in the brake's command
-//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
+// passivity: not certified for any motion, any damping of the brake that is not below its command: needs 0.0402
+//   N·s/m, counted sample by sample over a hold of up to 0.001 s, at least 0.024 N·s/m is there, 0.0162 N·s/m more
+//   is missing in the brake's command
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 8.9e-16 of the
 //   sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the

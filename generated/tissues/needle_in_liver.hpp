@@ -9,17 +9,18 @@
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
 // brake: makes b = 5 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by the
-//   rule 'faithful': no device to be faithful on, so the paper's rule: in series, B2 turns 100 % of the energy
-//   into heat at low frequency, and the brake follows it; with the contact no more than the feedthrough damping,
-//   so that the motor compensates nothing
-// behind friction: velocity-free, what slides has no damping but at the tool; b = 0 N·s/m stuck, 0 sliding
+//   rule 'faithful': without a device 'faithful' is the paper's rule: in series, B2 turns 100 % of the energy into
+//   heat at low frequency, and the brake follows it; with the contact no more than the feedthrough damping, so
+//   that the motor compensates nothing
+// behind friction: velocity-free, the only damping of what slides is at the tool; b = 0 N·s/m stuck, 0 sliding
 // states: what is kept of the past follows the measured position (position driven, as a network with a contact
 //   always is)
 // contact: at 0 m; brake and motor 0 while the tool is free
-// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
+// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
 // passivity: not certified: the brake leaves a free tool alone, so that in the sample of the touch only the
 //   device's own damping acts; 10.5838 N·s/m of damping are needed, at least 0 is there
-//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
 //   rounding adds at most 9.5e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
@@ -65,9 +66,10 @@ class needle_in_liver {
 
   // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
+    if (!dashpot::all_finite(position)) position = 0;
     // s = (u − u0)⁺
     const scalar pushed_in = position > 0 ? position : none;
-    surface_ = dashpot::all_finite(position, position, position) ? pushed_in : 0;
+    surface_ = dashpot::all_finite(pushed_in) ? pushed_in : 0;
     B2_K2_force_ = 0;
     presliding_spring_force_ = 0;
     sampled_brake_ = 0;

@@ -3,17 +3,18 @@
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
 // brake: makes b = 12 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by
-//   the rule 'faithful': no device to be faithful on, so the paper's rule: dampers at the tool in parallel add
+//   the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in parallel add
 // behind friction: velocity-free, parameters change while it runs; b is that of their default values; b = 0 N·s/m
 //   stuck, 0 sliding
 // states: what is kept of the past follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
-// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
+// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
 // passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any values within their
-//   ranges between changes, however the brake changes above its least command: needs 2.5 N·s/m, counted sample by
-//   sample over a hold of up to 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the brake's
-//   command
-//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+//   ranges between changes, any damping of the brake that is not below its least command: needs 2.5 N·s/m, counted
+//   sample by sample over a hold of up to 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the
+//   brake's command
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 1.4e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the

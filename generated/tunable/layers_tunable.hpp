@@ -3,16 +3,17 @@
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
 // brake: makes b = 3 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by the
-//   rule 'faithful': no device to be faithful on, so the paper's rule: dampers at the tool in parallel add
+//   rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in parallel add
 // behind skin_grip, muscle_grip, fascia: velocity-free, parameters change while it runs; b is that of their
 //   default values
 // states: what is kept of the past follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
-// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
+// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
 // passivity: certified for any motion, whatever slides, sticks, touches or lets go, any values within their ranges
-//   between changes, however the brake changes above its least command: needs 2 N·s/m, counted sample by sample
-//   over a hold of up to 0.001 s, at least 3 N·s/m is there
-//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+//   between changes, any damping of the brake that is not below its least command: needs 2 N·s/m, counted sample
+//   by sample over a hold of up to 0.001 s, at least 3 N·s/m is there
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 1.3e-12 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the

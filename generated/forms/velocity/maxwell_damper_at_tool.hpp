@@ -5,10 +5,11 @@
 // brake: makes b = 5 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it
 // states: what is kept of the past follows the estimated velocity (velocity driven as asked)
-// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
+// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
 // passivity: certified for any motion, samples at 1000 Hz: needs 4.95449 N·s/m, most at 18.8949 Hz, at least 5
 //   N·s/m is there
-//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // cost of output(): 1 additions, 1 multiplications, 0 guards against subnormal numbers

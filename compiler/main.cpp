@@ -562,11 +562,18 @@ bool asks_for_json(const std::vector<std::string>& arguments) {
   return false;
 }
 
+// Where a library's words would be a riddle: of a flag with a value, as in --batch=7.
+std::string in_plain_words(std::string fault) {
+  const std::string riddle = " was given a disallowed flag override";
+  const std::size_t at = fault.find(riddle);
+  return at == fault.npos ? fault : "--" + fault.replace(at, riddle.size(), " takes no value");
+}
+
 // Help and version are asked for; what else ends parsing is a fault of the command line.
 ExitStatus answer(const CLI::App& app, const CLI::ParseError& error, bool in_json) {
   std::ostringstream text, fault;
   if (app.exit(error, text, fault) != 0) {
-    std::cerr << (in_json ? command_line_fault_as_json(error.what()) : fault.str());
+    std::cerr << (in_json ? command_line_fault_as_json(in_plain_words(error.what())) : in_plain_words(fault.str()));
     return ExitStatus::command_line_wrong;
   }
   Diagnostics diagnostics;

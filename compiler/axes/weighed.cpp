@@ -23,9 +23,8 @@ class Scaling {
 
 // x of a scaled matrix, and no less; ∞ where it has no numbers.
 double largest_of(const Symmetric<Interval>& m) {
-  const double a = m.xx.high, c = m.yy.high, b = abs(m.xy).high, half_apart = above(0.5 * std::abs(a - c));
-  const double root = above(std::sqrt(above(above(half_apart * half_apart) + above(b * b))));
-  const double x = above(above(0.5 * (a + c)) + root);
+  const Interval a(m.xx.high), c(m.yy.high), b(abs(m.xy).high), half(0.5);
+  const double x = (half * (a + c) + sqrt(square(half * (a - c)) + square(b))).high;
   return x < infinity ? x : infinity;
 }
 

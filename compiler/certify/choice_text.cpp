@@ -79,8 +79,9 @@ std::string idle_brake(const Candidate& choice, const ChosenFor& what) {
 
 std::string at_any_delay(const Candidate& choice, const std::string& unit) {
   const double extra = choice.extra_damping_any_delay.value_or(0);
-  return (extra > 0 ? fmt::format("with {:.6g} {} of extra damping ", extra, unit) : std::string()) +
-         "passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes";
+  const std::string more = extra > 0 ? fmt::format(" and {:.6g} {} of extra damping", extra, unit) : "";
+  return "passive with an exact brake" + more +
+         " at any delay of the velocity estimate; sampling is counted under 'passivity'";
 }
 
 std::string in_percent(double share) {

@@ -266,9 +266,9 @@ std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& 
                     *limits.largest_discontinuity, units.force));
   if (limits.rule == LimitRule::none) return lines;
   const char* does =
-      limits.rule == LimitRule::sheds ? "the law sheds, which scales all its forces down together" : "the motor clips";
+      limits.rule == LimitRule::sheds ? "the law sheds, scaling all its forces down together" : "the motor clips";
   lines.push_back(limits.is_covered
-                      ? fmt::format("at the motor's limit: {}, which is passive with the {:.6g} {} that it needs", does,
+                      ? fmt::format("at the motor's limit: {}; this is passive with the {:.6g} {} that it needs", does,
                                     limits.needed, units.damping)
                       : fmt::format("at the motor's limit: {}; that this is passive is not proved: {}", does,
                                     why_not_covered(limits, units.damping)));

@@ -162,8 +162,9 @@ std::string notes_text(const Compilation& c) {
 std::string cost_text(const Compilation& c) {
   const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
   std::string text = fmt::format(
-      "cost                  output {} additions and {} multiplications, update {} and {} with {} guards, {} states\n",
-      output.additions, output.multiplications, update.additions, update.multiplications, update.guards, output.states);
+      "cost                  output {} additions and {} multiplications, update {} and {} with {} guard{}, {} states\n",
+      output.additions, output.multiplications, update.additions, update.multiplications, update.guards,
+      update.guards == 1 ? "" : "s", output.states);
   if (output.coupled > 0)
     text += fmt::format("coupled slips         at most {} additions, multiplications and divisions in output\n",
                         output.coupled);
@@ -250,13 +251,13 @@ std::string legend_of_lines(const std::string& text) {
       {"mode", "a spring and a damper in series that relax together, and the elements that make them"},
       {"zero-frequency damping", "of the whole network in a slow and steady motion"},
       {"behind friction", "what happens to damping while a slip slides, and why that was chosen"},
-      {"any delay", "the damping to add to b so that a late velocity estimate cannot make the law give energy"},
+      {"any delay", "the damping to add to b so that a late velocity estimate alone cannot make the law give energy"},
       {"brake is told", "at the tool: b, or in all that every regime asks for, and what passivity adds"},
       {"contact", "where the tissue begins, and what is commanded in front of it"},
       {"passivity",
        "the damping that the law needs so that no motion of the tool gets energy out of the loop, and what "
        "the device has for certain. A hold is the time over which the motor's force stays, from one sample to the "
-       "next; 'however the brake changes' means as long as it stays above the least one. Where 'what is rendered is "
+       "next. Where 'what is rendered is "
        "D + …' follows: D is the network's own answer to a motion, and s the rate of change, so that so much damping "
        "is felt beside the network"},
       {"energy", "what the law itself can give back, and what rounding may add to it"},
@@ -265,9 +266,10 @@ std::string legend_of_lines(const std::string& text) {
       {"currents", "what the device file's limits and constants come to"},
       {"slew", "how fast the motor's force has to change, and how fast it can"},
       {"sudden loss", "of what force the motor may lag behind without giving energy"},
-      {"at the limit",
-       "what happens where the motor cannot follow, and whether energy comes of it. Its damping is counted sample by "
-       "sample; that of 'passivity' may be counted over all frequencies, and is another number then. With a contact "
+      {"at the motor's limit",
+       "what happens where the motor cannot make or follow the force, and whether that is passive. Its damping is "
+       "counted sample by sample; that of 'passivity' may be counted over all frequencies, and is another number then. "
+       "With a contact "
        "only the device's own damping counts for both, since the brake leaves a free tool alone"},
       {"quantisation", "what the encoder's steps do: friction has to take what they give"},
       {"tunable", "a value that the program may change while it runs, as it is in the file, and its range"},

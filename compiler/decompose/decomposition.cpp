@@ -108,7 +108,7 @@ class Decomposer {
     const double feedthrough = to_double(form_.feedthrough_damping);
     return {"faithful",
             feedthrough,
-            "the most damping with an error of what is felt that is allowed, or close to the least where none is",
+            "the most damping whose felt error is within the tolerance or, if none is, near the least",
             {}};
   }
 

@@ -23,8 +23,7 @@ constexpr std::string_view names_taken =
     "tables threshold scalar damping steady_damping added_damping sample_period parameters values clamped wanted self "
     "none surface_at encoder_step gap approach depth surface_change surface_now surface_recovery surface_back "
     "released pull opposing pushed_force position_change slips_force slips_feedthrough slips_brake slips_wanted "
-    "slips_gain share sampled shifted sampled_position sampled_position_change sampled_surface_back "
-    "sampled_surface_change sampled_brake sampled_share ";
+    "slips_gain share sampled shifted ";
 
 // The same of the map of a static curve (lower/behind_map.cpp).
 constexpr std::string_view names_of_map =
@@ -65,7 +64,9 @@ class ProgramsBuilder {
     law_.stored = writer_.scalar("stored", "J", "energy in the springs", Role::local);
     held_ = state("held_force", writer_.force(), "π, what springs hold");
     for (Tunable& t : tables_.tunables) {
-      t.value = writer_.scalar(writer_.unique(t.name), t.unit, "parameter", Role::tuned);
+      const bool is_like_kept = t.name.starts_with("sampled_");  // as what is kept of a sample is called
+      t.value = writer_.scalar(writer_.unique(is_like_kept ? joined("parameter", t.name) : t.name), t.unit, "parameter",
+                               Role::tuned);
       law_.variables[t.value].rest_value = t.range.value;
     }
   }

@@ -8,7 +8,8 @@
 //   7.69e-05 %; b = 3.3 N·s/m stuck, 3.3 sliding
 // states: what is kept of the past follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
+// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
+//   'passivity'
 // passivity: certified for any motion, whatever slides, sticks, touches or lets go, any damping of the brake that
 //   is not below its least command: needs 3.05676 N·s/m, counted sample by sample over a hold of up to 0.001 s, at
 //   least 3.3 N·s/m is there

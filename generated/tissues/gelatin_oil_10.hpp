@@ -8,7 +8,8 @@
 //   the tool in parallel add
 // states: what is kept of the past follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
+// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
+//   'passivity'
 // passivity: certified for any motion, any damping of the brake that is not below its command: needs 0.0336 N·s/m,
 //   counted sample by sample over a hold of up to 0.001 s, at least 0.0356 N·s/m is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping

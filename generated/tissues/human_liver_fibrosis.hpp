@@ -9,7 +9,8 @@
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it
 // states: what is kept of the past follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
+// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
+//   'passivity'
 // passivity: certified for any motion, samples at 1000 Hz: needs 0.481064 N·s/m, most at 103.517 Hz, at least
 //   0.576 N·s/m is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping

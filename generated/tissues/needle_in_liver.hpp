@@ -16,7 +16,8 @@
 // states: what is kept of the past follows the measured position (position driven, as a network with a contact
 //   always is)
 // contact: at 0 m; brake and motor 0 while the tool is free
-// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
+// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
+//   'passivity'
 // passivity: not certified: the brake leaves a free tool alone, so that in the sample of the touch only the
 //   device's own damping acts; 10.5838 N·s/m of damping are needed, at least 0 is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping

@@ -335,7 +335,7 @@ class Json(CommandTest):
 
     def test_what_is_proved_at_the_motors_limit_is_told(self):
         """Fails if a choice, or damping of the device's own, that is told to be proved at the motor's limit is not."""
-        proved = "and no energy comes of it with the"
+        proved = "this is passive with the"
         done = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH)
         self.assertNotIn(proved, " ".join(done.stdout.split()))
         options = re.search(r"'(--.*)' has been tried and is proved there too", done.stderr).group(1)
@@ -613,7 +613,7 @@ class MotorLimits(CommandTest):
         self.assertAlmostEqual(limits["slew_needed"], 500, delta=1e-8)
         self.assertEqual((limits["rule"], limits["covered"], limits["needed_damping"]), ("none", True, None))
         self.assertIn("largest force: the law asks for up to 50 N within the encoder's range; the motor gives 51 N\n", self.text)
-        self.assertNotIn("at the limit", self.text)
+        self.assertNotIn("at the motor's limit", self.text)
 
     def test_a_motor_that_clips(self):
         """Fails if a limit costs a wall more damping than K T/2, which it needs anyway."""
@@ -622,7 +622,7 @@ class MotorLimits(CommandTest):
         self.assertEqual((limits["rule"], limits["covered"]), ("clamps", True))
         self.assertAlmostEqual(limits["needed_damping"], 0.5, delta=1e-9)
         self.assertLess(found["certificate"]["added_damping"], 1e-15)  # K T rounded up
-        self.assertIn("at the limit: the motor clips, and no energy comes of it with the 0.5 N s/m", self.text)
+        self.assertIn("at the motor's limit: the motor clips; this is passive with the 0.5 N s/m", self.text)
 
     def test_a_slew_that_is_enough_costs_damping(self):
         """Fails if a slewing motor is taken for one that follows at once: K T/2 and K T √(σ/3ρ)."""
@@ -678,7 +678,7 @@ class MotorLimits(CommandTest):
         self.dashpot("compile", "slip.json", "--device", "slewing.json", "--decomposition", "velocity-free", "--certificate", "slip_certificate.json")
         header = (self.folder / "slip.hpp").read_text()
         self.assertIn("scalar kept_share() const noexcept", header)
-        self.assertIn("// at the limit: the law sheds", header)
+        self.assertIn("// at the motor's limit: the law sheds", header)
         self.dashpot("verify", "slip_certificate.json", "slip.hpp")
 
     def test_emitted_code_sheds_as_simulate_does(self):

@@ -7,7 +7,8 @@
 //   % of the energy into heat at low frequency, and the brake follows it
 // states: what is kept of the past follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
-// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
+// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
+//   'passivity'
 // passivity: not certified for any motion, any values within their ranges between changes, any damping of the
 //   brake that is not below its least command: needs 5.5652 N·s/m, counted sample by sample over a hold of up to
 //   0.001 s, at least 5.5 N·s/m is there, 0.0652 N·s/m more is missing in the brake's command

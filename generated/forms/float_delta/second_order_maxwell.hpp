@@ -7,7 +7,8 @@
 //   the energy into heat at low frequency, and the brake follows it
 // states: what is kept of the past follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate, as far as the delay alone goes
+// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
+//   'passivity'
 // passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, most at 8.53085 Hz, at least 11
 //   N·s/m is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping

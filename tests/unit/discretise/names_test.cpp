@@ -112,13 +112,25 @@ TEST(Names, the_class_and_its_members) {
   EXPECT_NO_THROW(branches("K1_B1", {{"K1", "B1"}}));
 }
 
+// Of a class's members; locals of two programs may be called alike.
+std::string first_member_twice(const UpdateLaw& law) {
+  std::set<std::string> taken = of_the_template;
+  for (const Variable& variable : law.variables)
+    for (const std::string& name : names_in(variable.name, variable.element_names))
+      if (variable.is_kept() && !taken.insert(lowered(name + "_")).second) return name;
+  for (const Coefficient& coefficient : law.coefficients)
+    for (const std::string& name : names_in(coefficient.name, coefficient.element_names))
+      if (!taken.insert(lowered(name)).second) return name;
+  return "";
+}
+
 // Fails if a parameter can take a name that the law has for something of its own.
 TEST(Names, parameters_called_like_anything_in_the_law) {
   const std::vector<std::string> beside = {"", R"("contact": { "at": 0.001 },)",
                                            R"("static": { "power": 2, "force": "1 N", "at": "5 mm" },)"};
   const std::vector<std::string> slips = {"", R"(, { "series": [ { "slip": 0.1 }, { "spring": 50 } ] })",
-                                          R"(, { "series": [ { "slip": 0.1 }, { "parallel": [
-                                               { "spring": 50 }, { "slip": 0.2 } ] } ] })"};
+                                          R"(, { "series": [ { "slip": 0.1 }, { "spring": 70 },
+                                               { "parallel": [ { "spring": 50 }, { "slip": 0.2 } ] } ] })"};
   const auto text = [&](const std::string& parameter, std::size_t i, std::size_t j) {
     return fmt::format(R"({{ "dashpot": 1, "name": "tuned", {1} "parameters": {{
                              "{0}": {{ "value": 300, "tunable": true, "min": 30, "max": 900 }} }},
@@ -133,7 +145,7 @@ TEST(Names, parameters_called_like_anything_in_the_law) {
       for (std::string name : all_names(law.law())) {
         if (name.back() == '_') name.pop_back();
         try {
-          EXPECT_EQ(complaint_about_names(*Compiled(text(name, i, j)).operator->()), "") << name;
+          EXPECT_EQ(first_member_twice(Compiled(text(name, i, j)).law()), "") << name;
           ++accepted;
         } catch (const std::invalid_argument& refusal) {
           EXPECT_NE(std::string(refusal.what()).find("'" + name + "'"), std::string::npos) << refusal.what();

@@ -42,7 +42,7 @@ TEST(Representable, refuses_what_follows_from_parameters_and_slips) {
     "parameters": {"Y": {"value": 0.1, "tunable": true, "min": 0, "max": 1}},
     "network": {"series": [{"slip": "Y"}, {"damper": 1e-312}]}})");
   const SourceFile coupled("thin.json", R"({"dashpot": 1, "name": "thin", "network": {"series": [
-    {"slip": 1}, {"spring": 1e-39}, {"parallel": [{"slip": 1}, {"spring": 1}]}]}})");
+    {"slip": 1}, {"spring": 1e-39}, {"parallel": [{"slip": 1}, {"spring": 1e-39}]}]}})");
   for (const auto& [text, scalar] : {std::pair(&tuned, ScalarType::float64), {&coupled, ScalarType::float32}}) {
     Diagnostics diagnostics;
     EXPECT_FALSE(compiled_whole(*text, scalar, diagnostics));

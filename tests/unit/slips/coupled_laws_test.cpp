@@ -252,8 +252,9 @@ TEST(CoupledLaws, WhatCannotBeIsRefused) {
   const compiler::Network bare =
       written_network(R"({"series": [{"parallel": [{"spring": 500}, {"damper": 5}]}, {"slip": 0.4}]})");
   const std::string said = said_of(bare, "gated");
-  EXPECT_NE(said.find("no 'gated' law behind 'slip_3': what slides has no damping but at the tool [no-such-slip-law]"),
-            std::string::npos)
+  EXPECT_NE(
+      said.find("no 'gated' law behind 'slip_3': the only damping of what slides is at the tool [no-such-slip-law]"),
+      std::string::npos)
       << said;
   EXPECT_NE(said.find("'velocity-free' is always there"), std::string::npos) << said;
   const compiler::Network relaxing = written_network(

@@ -137,7 +137,7 @@ TEST(TunableCurve, SaysWhatIsNotProved) {
   EXPECT_NE(reason(on(tuned(parameter("K", 400, 100, 1600), kelvin), device())).find("neither beside each other"),
             std::string::npos);
   const std::string soft = tuned(parameter("K", 400, 100, 1600), R"({ "spring": "K" })");
-  EXPECT_NE(reason(on(soft, device("1 MN", 1))).find("the loop is late"), std::string::npos);
+  EXPECT_NE(reason(on(soft, device("1 MN", 1))).find("the loop is delayed"), std::string::npos);
   EXPECT_EQ(reason(on(soft, device())), "");
   EXPECT_TRUE(on(soft, device("5 N")).certificate.limits.is_covered);
 }

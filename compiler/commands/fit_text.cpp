@@ -29,8 +29,10 @@ class FitText {
                         error(fit_.floor_rms));
     if (fit_.noise && fit_.choices.weighting == Weighting::uniform)
       text += fmt::format("; the noise is about {}", error(*fit_.noise));
-    text += fmt::format("\n{:.4g} effective samples in all, by which intervals and BIC go; condition {:.3g}\n",
-                        fit_.effective_samples, fit_.condition);
+    text += fmt::format(
+        "\n{:.4g} effective samples in all, as the richest network tried leaves them, for intervals and BIC; condition "
+        "{:.3g}\n",
+        fit_.effective_samples, fit_.condition);
     if (fit_.choices.contact)
       text += fmt::format("surface {} at {}\n", fit_.choices.contact_is_found ? "found" : "given",
                           place_text(*fit_.choices.contact, fit_.choices.port_motion));

@@ -574,7 +574,7 @@ class C99Printer {
     return with_constants({&law_.start, &law_.rest}, std::move(lines));
   }
 
-  // Of several ports, whose starts are worked out from it.
+  // What states start at is worked out from it.
   Lines finite_position() const {
     Lines lines;
     if (law_.joints) {
@@ -590,17 +590,9 @@ class C99Printer {
   }
 
   std::string rest_of(VariableId state) const {
-    if (state == law_.rest_position) return rest_position();
-    for (const PortStart& start : law_.starts) {
-      const std::string there = law_.variables[start.value].name;
-      if (start.state == state) return finite_or_zero(there, there);
-    }
-    return number(law_.variables[state].rest_value);
-  }
-
-  std::string rest_position() const {
-    const std::string there = law_.started_at != no_variable ? law_.variables[law_.started_at].name : "position";
-    return finite_or_zero(there, there);
+    const VariableId start = law_.start_of(state);
+    if (start == no_variable) return number(law_.variables[state].rest_value);
+    return finite_or_zero(law_.variables[start].name, law_.variables[start].name);
   }
 
   static const std::string& member(const Variable& variable, std::size_t place) {

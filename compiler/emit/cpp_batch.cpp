@@ -39,7 +39,7 @@ class BatchPrinter {
     each_state([&](VariableId id, const std::string& state, std::size_t number) {
       batch.states = number + 1;
       if (law_.variables[id].role == Role::state)
-        batch.reset.push_back(fmt::format("put(state, {}, {});", number, rest_value(law_.variables[id])));
+        batch.reset.push_back(fmt::format("put(state, {}, {});", number, rest_value(id)));
       if (changed.count(id) == 0) return;
       ++batch.stored;
       batch.stores.push_back(
@@ -280,15 +280,12 @@ class BatchPrinter {
     return parts.front();
   }
 
-  std::string rest_value(const Variable& variable) const {
-    const auto finite = [&](VariableId started) {
-      return fmt::format("dashpot::all_finite({0}) ? {0} : scalar(0)", name(started, 0));
-    };
-    for (const PortStart& start : law_.starts)
-      if (&law_.variables[start.state] == &variable) return finite(start.value);
-    if (law_.rest_position == no_variable || &variable != &law_.variables[law_.rest_position])
-      return cpp_literal(variable.rest_value, law_.scalar);
-    return law_.started_at != no_variable ? finite(law_.started_at) : "position";
+  // The position that is put in is finite.
+  std::string rest_value(VariableId state) const {
+    const VariableId start = law_.start_of(state);
+    if (start == no_variable) return cpp_literal(law_.variables[state].rest_value, law_.scalar);
+    if (start == law_.position) return "position";
+    return fmt::format("dashpot::all_finite({0}) ? {0} : scalar(0)", name(start, 0));
   }
 
   std::vector<std::string> constants() const {

@@ -196,12 +196,13 @@ class CppPrinter {
       lines.insert(lines.begin(), "if (!dashpot::all_finite(position)) position = 0;");
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state || is_of_rest(law_.variables.id_of(variable))) continue;
-      if (const std::string value = started(variable); !value.empty())
-        lines.push_back(
-            fmt::format("{0} = dashpot::all_finite({1}) ? {1} : 0;", CppStatements::scalar_name(variable), value));
-      else if (rests && &variable == &law_.variables[law_.rest_position])
+      const VariableId start = law_.start_of(law_.variables.id_of(variable));
+      if (start == law_.position)
         lines.push_back(CppStatements::scalar_name(variable) +
                         " = dashpot::all_finite(position, position, position) ? position : 0;");
+      else if (start != no_variable)
+        lines.push_back(fmt::format("{0} = dashpot::all_finite({1}) ? {1} : 0;", CppStatements::scalar_name(variable),
+                                    name_of(start)));
       else if (variable.size == 1)
         lines.push_back(fmt::format("{} = {};", CppStatements::scalar_name(variable), rest_value(variable)));
       else if (statements_.is_rolled(variable)) lines.push_back(clearing(variable));
@@ -229,15 +230,6 @@ class CppPrinter {
                                     name_of(joint), i));
     for (std::string& line : statements_.lines_of(law_.start)) lines.push_back(std::move(line));
     return lines;
-  }
-
-  // The local that reset() sets a state to; empty where there is none.
-  std::string started(const Variable& state) const {
-    if (law_.started_at != no_variable && &state == &law_.variables[law_.rest_position])
-      return name_of(law_.started_at);
-    for (const PortStart& start : law_.starts)
-      if (&law_.variables[start.state] == &state) return name_of(start.value);
-    return "";
   }
 
   std::string clearing(const Variable& variable) {

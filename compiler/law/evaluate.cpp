@@ -182,26 +182,13 @@ void Evaluation<Scalar>::reset(Scalar position) {
     if (variable.role == Role::tuned) continue;
     std::fill_n(at(law_.variables.id_of(variable)), variable.size, static_cast<Scalar>(variable.rest_value));
   }
-  if (!all_finite(position)) position = 0;
-  if (law_.rest_position != no_variable) {
-    const Scalar there = rest_position(position);
-    at(law_.rest_position)[0] = all_finite(there) ? there : Scalar(0);
-  }
-  if (!law_.joints && !law_.starts.empty()) {
-    at(law_.position)[0] = position;
+  if (!law_.joints) {
+    at(law_.position)[0] = all_finite(position) ? position : Scalar(0);
     start();
   }
   std::fill(turns_.begin(), turns_.end(), 0);
   run(rest_);
   sampled_ = false;
-}
-
-template <class Scalar>
-Scalar Evaluation<Scalar>::rest_position(Scalar position) {
-  if (law_.started_at == no_variable) return position;
-  at(law_.position)[0] = position;
-  run(start_);
-  return at(law_.started_at)[0];
 }
 
 template <class Scalar>
@@ -250,8 +237,10 @@ void Evaluation<Scalar>::reset(const std::vector<Scalar>& positions) {
 template <class Scalar>
 void Evaluation<Scalar>::start() {
   run(start_);
-  for (const PortStart& start : law_.starts)
-    at(start.state)[0] = all_finite(at(start.value)[0]) ? at(start.value)[0] : Scalar(0);
+  for (const Variable& variable : law_.variables) {
+    const VariableId state = law_.variables.id_of(variable), start = law_.start_of(state);
+    if (start != no_variable) at(state)[0] = all_finite(at(start)[0]) ? at(start)[0] : Scalar(0);
+  }
 }
 
 template <class Scalar>

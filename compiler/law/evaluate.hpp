@@ -90,8 +90,7 @@ class Evaluation {
   void solve(const Coupling& coupling, Solver& solver, VariableId target, Scalar change);
   void solve(const SlipNetwork& network, NetworkSolver& solver, VariableId target, Scalar change);
   Scalar tune(const SlipNetwork& network, NetworkSolver& solver) const;
-  Scalar rest_position(Scalar position);  // of a finite position
-  void start();                           // every port, where the inputs are
+  void start();  // every state that starts somewhere, where the inputs are
   Scalar damping(VariableId changing) const;
   static Scalar picked(const Scalar* table, std::size_t last, Scalar place);
   Scalar sum(const Scalar* vector, std::size_t size);

@@ -280,6 +280,13 @@ struct UpdateLaw {
   }  // not finite where the sample is to be refused
   bool brake_changes() const { return brake != no_variable; }
   std::vector<Tunable> parameters() const { return tunable ? tunable->tunables : std::vector<Tunable>(); }
+  // What reset() sets a state to: the position or a local of `start`; no_variable where that is its rest value.
+  VariableId start_of(VariableId state) const {
+    if (state == rest_position) return started_at != no_variable ? started_at : position;
+    for (const PortStart& port : starts)
+      if (port.state == state) return port.value;
+    return no_variable;
+  }
   VariableId moved() const { return mapped != no_variable ? mapped : position; }  // what the springs see of the tool
 };
 

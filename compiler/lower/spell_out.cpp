@@ -789,6 +789,7 @@ UpdateLaw spelled_out(UpdateLaw law, motion port_motion) {
 }
 
 UpdateLaw begun_at_rest(UpdateLaw law) {
+  if (law.tune.empty() && law.start.empty() && law.rest.empty()) return law;
   law.scalar == ScalarType::float32 ? begin_at_rest<float>(law) : begin_at_rest<double>(law);
   return law;
 }

@@ -77,7 +77,7 @@ compiler::Network network_of(std::uint64_t seed) {
   recipe.most_slips = seed % 4 == 2 ? 1 : seed % 4 == 3 ? 4 : seed % 8 == 4 ? 6 : 0;
   compiler::Network network = random_network(seed, recipe);
   if (seed % 4 == 1 || seed % 16 == 3 || seed % 16 == 12)
-    network.contact = compiler::Contact{seed % 3 == 0 ? -1e-3 : 1e-3, {}};
+    network.contact = compiler::Contact{1e-3 * (double(seed % 3) - 1), {}};
   return network;
 }
 

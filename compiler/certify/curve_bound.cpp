@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "certify/box_hold.hpp"
@@ -19,7 +20,12 @@ namespace {
 
 constexpr double margin = 1 + 1e-9;  // of sums in double, some thousand terms of them
 constexpr int stretches_of_cell = 8;
-constexpr std::size_t without_lag_of_coil = 0;  // of `coil_times`
+
+// How long a brake's coil may have had, in its time constants: a bound holds for each, and the best is taken.
+std::span<const double> coil_times(double coil_lag) {
+  static constexpr double lagging[] = {1, 2, 4, 8}, prompt[] = {0};
+  return coil_lag > 0 ? std::span<const double>(lagging) : std::span<const double>(prompt);
+}
 
 // How far the tool goes within a hold, and what a delay adds to it.
 double reach_of_hold(const SampledLoop& tool) {
@@ -30,14 +36,6 @@ double reach_of_hold(const SampledLoop& tool) {
 double flattest_within(const MotionMap& map, double from, double to) {
   if (from < 0) return map.least_tangent(0, std::max(to, -from));
   return map.least_tangent(from, to);
-}
-
-template <class Take>
-void each_stretch(const MotionMap& map, const SampledLoop& tool, Take take) {
-  const double width = map.width() / stretches_of_cell, farthest = tool.travel + std::abs(map.start);
-  for (std::size_t i = 0; i < map.cubics() * stretches_of_cell && double(i) * width <= farthest; ++i)
-    take(double(i) * width, double(i + 1) * width);
-  if (map.reach <= farthest) take(map.reach, map.reach);
 }
 
 std::string hindrance(bool estimate_drives_modes, const std::optional<SlipMotor>& slips, const SampledLoop& tool) {
@@ -146,10 +144,8 @@ class CurveNeed {
     if (held_.is_stepwise) needed_behind = std::max(needed_behind, stiffness_ * tool_.longest_hold());
     const std::vector<double> bends = costs_of_bends();
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < coil_times.size(); ++i) {
-      if ((coil_lag_ > 0) == (i == without_lag_of_coil)) continue;
+    for (std::size_t i = 0; i < coil_times(coil_lag_).size(); ++i)
       least = std::min(least, lacking_with(needed_behind, i, bends));
-    }
     return (least + cost_of_lag() + cost_of_estimate) * margin;
   }
 
@@ -165,7 +161,7 @@ class CurveNeed {
   }
 
   double lacking_with(double needed_behind, std::size_t time, const std::vector<double>& bends) const {
-    const double settled = coil_lag_ > 0 ? std::pow(1 - std::exp(-coil_times[time]), 2) : 1;
+    const double settled = coil_lag_ > 0 ? std::pow(1 - std::exp(-coil_times(coil_lag_)[time]), 2) : 1;
     double most = 0;
     for (std::size_t i = 0; i < stretches_.size(); ++i) {
       const CurveStretch& one = stretches_[i];
@@ -222,9 +218,8 @@ class CurveNeed {
     if (tool_.amplifier_lag == 0 && tool_.write_latest == 0) return 0;
     const double steepest = map_.steepest();
     double most = 0;
-    each_stretch(map_, tool_, [&](double from, double to) {
-      most = std::max(most, force(from, to) * map_.largest_curvature(from, to));
-    });
+    for (const CurveStretch& one : stretches_)
+      most = std::max(most, force(one.from, one.to) * map_.largest_curvature(one.from, one.to));
     return (stiffness_ * steepest * steepest + most / 2) * time_of_lateness(tool_);
   }
 
@@ -322,17 +317,20 @@ double yield_forces(const Network& network) {
 }
 
 std::vector<CurveStretch> curve_stretches(const MotionMap& map, const SampledLoop& tool, double coil_lag) {
-  const double reach = reach_of_hold(tool);
+  const double reach = reach_of_hold(tool), farthest = tool.travel + std::abs(map.start);
   std::vector<CurveStretch> all;
-  each_stretch(map, tool, [&](double from, double to) {
+  const auto take = [&](double from, double to) {
     const double before = std::max(from - reach, 0.0), after = to + reach;
-    CurveStretch one{from, to, map.largest_tangent(before, after), map.largest_curvature(before, after), {}};
-    for (std::size_t i = 0; i < coil_times.size(); ++i) {
-      const double brake_reach = reach + coil_times[i] * coil_lag * tool.tool_speed;
-      one.flattest[i] = flattest_within(map, from - brake_reach, to + brake_reach);
+    all.push_back({from, to, map.largest_tangent(before, after), map.largest_curvature(before, after), {}});
+    for (const double time : coil_times(coil_lag)) {
+      const double brake_reach = reach + time * coil_lag * tool.tool_speed;
+      all.back().flattest.push_back(flattest_within(map, from - brake_reach, to + brake_reach));
     }
-    all.push_back(one);
-  });
+  };
+  const double width = map.width() / stretches_of_cell;
+  for (std::size_t i = 0; i < map.cubics() * stretches_of_cell && double(i) * width <= farthest; ++i)
+    take(double(i) * width, double(i + 1) * width);
+  if (map.reach <= farthest) take(map.reach, map.reach);
   return all;
 }
 

@@ -28,7 +28,6 @@
 // curve softens.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "certify/certificate.hpp"
@@ -40,15 +39,13 @@ namespace dashpot::compiler {
 // Σ Y of the slips that forces can pass through [N].
 double yield_forces(const Network& network);
 
-// What the brake's coil has had of a command: in its time constants, of which a bound takes the best.
-inline constexpr std::array<double, 5> coil_times{0, 1, 2, 4, 8};
-
 // A stretch of the map, with all places that the tool may come to within a hold.
 struct CurveStretch {
-  double from, to;                                 // without those [m]
-  double steepest;                                 // the largest w′ [1]
-  double largest_curvature;                        // of |w″| [1/m]
-  std::array<double, coil_times.size()> flattest;  // the least w′ where the tool may have been so long before [1]
+  double from, to;           // without those [m]
+  double steepest;           // the largest w′ [1]
+  double largest_curvature;  // of |w″| [1/m]
+  std::vector<double>
+      flattest;  // the least w′ where the tool may have been, for each time that a coil may have had [1]
 };
 
 // All that the tool reaches of a map on a device.

@@ -220,15 +220,11 @@ bool damps(const CertifiedPort& port) { return std::max(port.law->damping, port.
 // between.
 bool varies(const CertifiedPort& port) { return port.law->brake_changes() && port.form->has_slips(); }
 
-bool are_late(const AxesDevice& device) {
-  return device.loop().delay_samples > 0 || device.loop().write_latest > 0 ||
-         std::any_of(device.joints.begin(), device.joints.end(),
-                     [](const device_description& joint) { return joint.motor.amplifier_lag > 0; });
-}
-
-const char* why_late(const AxesDevice& device) {
-  if (device.loop().delay_samples > 0) return "the loop is delayed by \"delay_samples\"";
-  return device.loop().write_latest > 0 ? "commands act later than their samples" : "the amplifiers lag";
+// Of a joint, where one is.
+std::optional<SampledLoop> late_loop(const AxesDevice& device) {
+  for (const device_description& joint : device.joints)
+    if (const SampledLoop loop = loop_of_joint(joint); loop.is_late()) return loop;
+  return std::nullopt;
 }
 
 std::string uncovered_in_device(const AxesDevice& device) {
@@ -242,13 +238,14 @@ std::string uncovered_in_device(const AxesDevice& device) {
 }
 
 std::string uncovered_in_ports(const std::vector<CertifiedPort>& ports, const AxesDevice& device) {
+  const std::optional<SampledLoop> late = late_loop(device);
   for (const CertifiedPort& port : ports) {
     const std::string of_port = fmt::format("port '{}': ", port.port->name);
     if (varies(port)) return of_port + "its damping changes with its slips, which no bound of two axes covers yet";
-    if (!port.slips || !are_late(device)) continue;
+    if (!port.slips || !late) continue;
     if (port.slips->lets_go_by_estimate)
-      return of_port + "the contact lets go by a velocity estimate, and " + why_late(device);
-    if (!port.slips->springs_alone) return of_port + "dampers are behind its slips, and " + why_late(device);
+      return of_port + "the contact lets go by a velocity estimate, and " + why_late(*late);
+    if (!port.slips->springs_alone) return of_port + "dampers are behind its slips, and " + why_late(*late);
   }
   return "";
 }

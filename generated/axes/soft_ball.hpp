@@ -10,7 +10,7 @@
 //   joint's velocity acts on the other
 // share: of the ports' damping the brakes make 109 % in the median over the workspace, 71.1 % at least, at (-1,
 //   119.4) mm, averaged over all directions of motion
-// passivity: not certified, since port 'ball': the contact lets go by a velocity estimate, and the amplifiers lag:
+// passivity: not certified, since port 'ball': the contact lets go by a velocity estimate, and the amplifier lags:
 //   what the motors hold from one sample to the next needs 0.0446642 and 0.0446642 N·m·s/rad of damping at the
 //   joints; their own damping and the brakes' share of the network's leave 0.0445944 and 0.0445944 N·m·s/rad of it
 //   to be added, most at (-22.97, 120) mm

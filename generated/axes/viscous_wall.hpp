@@ -9,7 +9,7 @@
 //   joint's velocity acts on the other
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 98.4 % at least, at (-1,
 //   106.9) mm, averaged over all directions of motion
-// passivity: not certified, since port 'wall': the contact lets go by a velocity estimate, and the amplifiers lag:
+// passivity: not certified, since port 'wall': the contact lets go by a velocity estimate, and the amplifier lags:
 //   what the motors hold from one sample to the next needs 0.0904794 and 0.0904794 N·m·s/rad of damping at the
 //   joints; their own damping and the brakes' share of the network's leave 0.0904095 and 0.0904095 N·m·s/rad of it
 //   to be added, most at (-0.3125, 109.6) mm

@@ -78,8 +78,7 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
   if (!c.loop.has_device)
     lines.push_back(
         "  without a device an ideal one is assumed, with the difference of two samples for the velocity, and no "
-        "damping "
-        "is added for passivity");
+        "damping is added for passivity");
   if (c.added_damping > 0)
     lines.push_back(fmt::format(
         "  of the brake's command {:.6g} {} are for passivity and not compensated: what is rendered is D + {:.6g} s",

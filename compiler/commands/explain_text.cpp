@@ -257,8 +257,8 @@ std::string legend_of_lines(const std::string& text) {
       {"passivity",
        "the damping that the law needs so that no motion of the tool gets energy out of the loop, and what "
        "the device has for certain. A hold is the time over which the motor's force stays, from one sample to the "
-       "next. Where 'what is rendered is "
-       "D + …' follows: D is the network's own answer to a motion, and s the rate of change, so that so much damping "
+       "next. Where 'what is rendered is D + …' follows: D is the network's own answer to a motion, and s the rate of "
+       "change, so that so much damping "
        "is felt beside the network"},
       {"energy", "what the law itself can give back, and what rounding may add to it"},
       {"largest force", "what the law may ask of the motor, and what the motor can make"},
@@ -269,8 +269,7 @@ std::string legend_of_lines(const std::string& text) {
       {"at the motor's limit",
        "what happens where the motor cannot make or follow the force, and whether that is passive. Its damping is "
        "counted sample by sample; that of 'passivity' may be counted over all frequencies, and is another number then. "
-       "With a contact "
-       "only the device's own damping counts for both, since the brake leaves a free tool alone"},
+       "With a contact only the device's own damping counts for both, since the brake leaves a free tool alone"},
       {"quantisation", "what the encoder's steps do: friction has to take what they give"},
       {"tunable", "a value that the program may change while it runs, as it is in the file, and its range"},
       {"damping follows",

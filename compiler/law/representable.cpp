@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 
 namespace dashpot::compiler {
 namespace {
@@ -10,14 +11,14 @@ namespace {
 template <class Visit>
 void each_number(const UpdateLaw& law, motion port_motion, Visit visit) {
   const bool turns = port_motion == motion::rotation;
-  const auto all_of = [&](const std::vector<double>& values, const std::string& name, const std::string& unit) {
+  const auto all_of = [&](const std::vector<double>& values, std::string_view name, std::string_view unit) {
     for (const double value : values) visit(value, name, unit);
   };
   visit(law.damping, "damping", turns ? "N·m·s/rad" : "N·s/m");
   for (const Coefficient& coefficient : law.coefficients)
     all_of(coefficient.values, coefficient.name, coefficient.unit);
   for (const Variable& variable : law.variables) visit(variable.rest_value, variable.name, variable.unit);
-  const std::string force = turns ? "N·m" : "N", stiffness = turns ? "N·m/rad" : "N/m";
+  const std::string_view force = turns ? "N·m" : "N", stiffness = turns ? "N·m/rad" : "N/m";
   for (const Coupling& coupling : law.couplings)
     for (const slip_node<double>& node : coupling.nodes) {
       visit(node.yield, coupling.name, force);
@@ -42,13 +43,13 @@ void each_number(const UpdateLaw& law, motion port_motion, Visit visit) {
 bool has_finite_numbers(const UpdateLaw& law) {
   bool all = true;
   each_number(law, motion::translation,
-              [&](double value, const std::string&, const std::string&) { all &= std::isfinite(value); });
+              [&](double value, std::string_view, std::string_view) { all &= std::isfinite(value); });
   return all;
 }
 
 bool is_representable(const UpdateLaw& law, const Network& network, Diagnostics& diagnostics) {
   std::string last;
-  each_number(law, network.port_motion, [&](double value, const std::string& name, const std::string& unit) {
+  each_number(law, network.port_motion, [&](double value, std::string_view name, std::string_view unit) {
     if (std::isfinite(value) || name == last) return;
     diagnostics.report<DiagnosticCode::constant_overflows>(network.name_span, name, unit, network.name,
                                                            name_of(law.scalar));

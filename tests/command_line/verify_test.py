@@ -102,7 +102,8 @@ OTHER_LAWS = [
     [SOURCE / "networks/tunable/standard_solid_tunable.json", "--device", PANTOGRAPH, "--scalar", "float"],
     [SOURCE / "networks/tunable/standard_solid_tunable.json", "--device", BOARD, "--constant-time"],
     [SOURCE / "networks/tunable/second_order_maxwell_tunable.json", "--constant-time", "--batch"],
-    ["tuned.json", "--device", BOARD, "--decomposition", "1.25"], ["tuned.json", "--scheme", "backward-euler"], ["pushed_tuned.json"], ["tuned.json", "--rate", "1"],
+    ["tuned.json", "--device", BOARD, "--decomposition", "1.25"], ["tuned.json", "--scheme", "backward-euler"], ["pushed_tuned.json"],
+    ["tuned.json", "--rate", "1"],
     [SOURCE / "networks/tunable/layers_tunable.json", "--device", PANTOGRAPH], [SOURCE / "networks/tunable/layers_tunable.json", "--scheme", "backward-euler", "--scalar", "float"],
 ]
 
@@ -473,7 +474,8 @@ class Verify(CommandTest):
         other, _ = self.emitted([FIG_5, "--device", BOARD, "--uncertified"], "other")
         self.write("other.hpp", other)
         apart = "they were not written together: the header is of device 'board_mps2'"
-        self.assertIn(apart, self.refused("verify", "certificate.json", "other.hpp", code="certificate-disagrees").stderr)
+        told = self.refused("verify", "certificate.json", "other.hpp", code="certificate-disagrees").stderr
+        self.assertIn(apart, told)
         self.assertNotIn(apart, self.refused("verify", "wrong.json", "header.hpp", code="unknown-constant").stderr)
         self.write("shorter.hpp", re.sub(r".*scalar static_stiffness = .*\n", "", header))
         self.refused("verify", "certificate.json", "shorter.hpp", code="constant-missing")

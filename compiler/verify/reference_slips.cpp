@@ -11,14 +11,14 @@
 namespace dashpot::compiler {
 namespace {
 
-using Kind = ReferencePart::Kind;
+using ReferenceKind = ReferencePart::Kind;
 
 // All that is behind a contact as one tree.
 ReferencePart whole_of(const ReferenceTree& tree) {
-  ReferencePart whole{Kind::parallel, {}, {}, 0, tree.components};
+  ReferencePart whole{ReferenceKind::parallel, {}, {}, 0, tree.components};
   const ReferenceForm& f = tree.linear;
   if (f.static_stiffness > 0 || f.feedthrough_damping > 0 || !f.modes.empty())
-    whole.children.insert(whole.children.begin(), {Kind::block, {}, f, 0, {}});
+    whole.children.insert(whole.children.begin(), {ReferenceKind::block, {}, f, 0, {}});
   if (whole.children.size() != 1) return whole;
   return ReferencePart(std::move(whole.children.front()));
 }
@@ -47,17 +47,17 @@ class Constants {
   Reference add_table(const ReferencePart& part) {
     Reference g = 0, compliance = 0;
     bool is_flat = false;
-    if (part.kind == Kind::block) g = companion(part.form, facts_);
+    if (part.kind == ReferenceKind::block) g = companion(part.form, facts_);
     for (const ReferencePart& child : part.children) {
       const Reference of_child = add_table(child);
       is_flat = is_flat || of_child == 0;
       g += of_child;
       if (of_child > 0) compliance += 1 / of_child;
     }
-    if (part.kind == Kind::series) g = is_flat ? Reference(0) : Reference(1 / compliance);
+    if (part.kind == ReferenceKind::series) g = is_flat ? Reference(0) : Reference(1 / compliance);
     for (const Reference& value : {g, g > 0 ? Reference(1 / g) : Reference(0), part.yield_force})
       pool_["table"].push_back(value);
-    if (part.kind == Kind::block) add_form(part.form);
+    if (part.kind == ReferenceKind::block) add_form(part.form);
     return g;
   }
 
@@ -161,7 +161,7 @@ class Constants {
 
   // Y, and Y (Y − hysteresis ∂t/∂u) where a slide ends for the command.
   void add_slip(const ReferencePart& part, const Reference& trial_by_change) {
-    if (part.kind == Kind::slip) {
+    if (part.kind == ReferenceKind::slip) {
       const Reference& Y = part.yield_force;
       const Reference back =
           std::max(Reference(Reference(hysteresis_) * trial_by_change), Reference(Y * Reference("1e-6")));
@@ -188,18 +188,18 @@ ReferenceCut cut_of(const ReferenceForm& form, const LawFacts& facts) {
 }
 
 std::optional<ReferenceCut> least_cut(const ReferencePart& part, const LawFacts& facts, const Reference& weight) {
-  if (part.kind == Kind::block) return cut_of(part.form, facts);
-  if (part.kind == Kind::slip) return std::nullopt;
+  if (part.kind == ReferenceKind::block) return cut_of(part.form, facts);
+  if (part.kind == ReferenceKind::slip) return std::nullopt;
   std::optional<ReferenceCut> least;
   ReferenceCut sum{0, 0};
   for (const ReferencePart& child : part.children) {
     const std::optional<ReferenceCut> cut = least_cut(child, facts, weight);
-    if (!cut && part.kind == Kind::parallel) return std::nullopt;
+    if (!cut && part.kind == ReferenceKind::parallel) return std::nullopt;
     if (!cut) continue;
     sum = {sum.stiffness + cut->stiffness, sum.damping + cut->damping};
     if (!least || cut->stiffness * weight + cut->damping < least->stiffness * weight + least->damping) least = cut;
   }
-  return part.kind == Kind::series ? least : sum;
+  return part.kind == ReferenceKind::series ? least : sum;
 }
 
 // The same of a part that is no tree: all ways to part its ends that no slip crosses.

@@ -370,7 +370,7 @@ ViscousField uniform(double damping) {
   return field;
 }
 
-FieldCase random_field(Random& random) {
+FieldCase random_field_case(Random& random) {
   FieldCase one{
       every_arm[random.index(4)], {1, 1}, random.log_uniform(0.1, 10), 0, 1 + random.index(5), random.index(3), 0};
   one.weight = {one.arm.proximal * one.arm.proximal, one.arm.distal * one.arm.distal};
@@ -427,7 +427,7 @@ TEST(Attack, EstimatesGiveNothingAtTheBound) {
   const std::size_t cases = repetitions(12, 200);
   std::size_t gained = 0;
   for (std::size_t i = 0; i < cases; ++i) {
-    const FieldCase one = random_field(random);
+    const FieldCase one = random_field_case(random);
     ASSERT_TRUE(std::isfinite(one.size) && one.size > 0);
     bool gains = false;
     for (std::size_t turn = 1; turn <= 8; ++turn) {  // to and fro every so many samples, in a direction R turns most

@@ -112,7 +112,7 @@ TEST(AdaptiveWindow, BeyondTheTables) {
   EXPECT_FALSE(adaptive_window_gain(differencing_loop(0.001, 8)));
 }
 
-MotorConstants random_motor(testing::Random& random, double sample_period) {
+MotorConstants random_motor_with_few_modes(testing::Random& random, double sample_period) {
   MotorConstants motor = spring_motor(random.chance(0.3) ? 0 : random.log_uniform(1, 1000));
   for (std::size_t modes = random.index(3); modes > 0; --modes)
     add_maxwell(motor, random.log_uniform(1, 1000), random.log_uniform(0.1, 1000), sample_period, true);
@@ -129,7 +129,7 @@ TEST(AdaptiveWindow, AddsUpWithWhatPositionDrives) {
     SampledLoop loop = adaptive_loop(random.log_uniform(1e-4, 1e-2), unsigned(random.between(1, 15)),
                                      unsigned(random.index(4)), random.chance(0.5));
     if (random.chance(0.5)) loop.jitter = random.uniform(0, 0.5) * loop.sample_period;
-    const MotorConstants motor = random_motor(random, loop.sample_period);
+    const MotorConstants motor = random_motor_with_few_modes(random, loop.sample_period);
     const PassivityBound bound = proved_bound(motor, loop);
     ASSERT_TRUE(bound.storage);
     EXPECT_TRUE(is_proved(motor, loop, *bound.storage, bound.needed));
@@ -191,7 +191,7 @@ TEST(AdaptiveWindow, NoMotionTakesEnergyOut) {
     testing::Random random(seed + 500);
     const SampledLoop loop = adaptive_loop(random.log_uniform(1e-4, 1e-2), unsigned(random.between(1, 15)),
                                            unsigned(random.index(4)), random.chance(0.5));
-    MotorConstants motor = random_motor(random, loop.sample_period);
+    MotorConstants motor = random_motor_with_few_modes(random, loop.sample_period);
     if (random.chance(0.3)) add_maxwell(motor, random.log_uniform(1, 1000), random.log_uniform(1, 1000), 0.001, false);
     const PassivityBound bound = passivity_bound(motor, loop);
     ASSERT_EQ(bound.proof, Proof::sampled);

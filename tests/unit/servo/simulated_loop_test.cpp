@@ -21,7 +21,7 @@ namespace {
 using simulated::sample_fault;
 using simulated::sample_fault_kind;
 
-constexpr std::size_t periods = 1000;
+constexpr std::size_t run_length = 1000;
 
 // 0.2 kg moved to and fro by a hand; every limit stated, every lag and friction present.
 device_description sliding_device() {
@@ -63,7 +63,7 @@ closed_loop_run run(const device_description& description, std::vector<sample_fa
   closed_loop_run result;
   log_text table;
   servo_options options;
-  options.duration = 0.001 * static_cast<double>(periods);
+  options.duration = 0.001 * static_cast<double>(run_length);
   options.telemetry_capacity = 256;
   options.outputs.log = nullptr;
   options.outputs.csv = table.file();
@@ -79,7 +79,7 @@ TEST(SimulatedLoop, RunsWithoutFaultAndTheSameEveryTime) {
   const closed_loop_run first = run(sliding_device()), second = run(sliding_device());
   EXPECT_EQ(first.summary.faults.total(), 0u);
   EXPECT_EQ(first.summary.held, 0u);
-  EXPECT_EQ(first.records.size(), periods);
+  EXPECT_EQ(first.records.size(), run_length);
   EXPECT_EQ(first.table, second.table);
   EXPECT_GT(first.ledger.brake, 0.01);
 }
@@ -97,7 +97,7 @@ struct pulsing_brake : generated::second_order_maxwell {
 
 std::vector<sample_fault> many_losses() {
   std::vector<sample_fault> losses;
-  for (std::uint64_t first = 5; first + 5 < periods; first += 11)
+  for (std::uint64_t first = 5; first + 5 < run_length; first += 11)
     losses.push_back({sample_fault_kind::lost, first, 3, 0});
   return losses;
 }
@@ -147,12 +147,12 @@ TEST_P(SimulatedFault, EndsInTheSafeCommandAndChangesNothingBefore) {
   constexpr unsigned seed = 3;
   std::mt19937 random(seed);
   for (int repetition = 0; repetition < 10; ++repetition) {
-    const std::uint64_t instant = std::uniform_int_distribution<std::uint64_t>(1, periods - 20)(random);
+    const std::uint64_t instant = std::uniform_int_distribution<std::uint64_t>(1, run_length - 20)(random);
     SCOPED_TRACE("seed " + std::to_string(seed) + ", instant " + std::to_string(instant));
     const closed_loop_run struck =
         run(sliding_device(), {{GetParam().kind, instant, GetParam().count, GetParam().size}});
     for (std::size_t k = 0; k < instant; ++k) ASSERT_EQ(csv_row(struck.records[k]), csv_row(sound.records[k]));
-    for (std::size_t k = instant + GetParam().count - 1; k < periods; ++k) {
+    for (std::size_t k = instant + GetParam().count - 1; k < run_length; ++k) {
       ASSERT_EQ(struck.records[k].motor_torque, 0) << k;
       ASSERT_EQ(struck.records[k].brake_damping, 7.5) << k;
     }

@@ -154,6 +154,7 @@ class PortNeed {
   // beside the field.
   struct Ends {
     std::vector<Symmetric<Sloped>> as_it_stands, tightest;
+    bool has_a_choice = false;  // otherwise both are the same
     Symmetric<Sloped> field{Sloped(0), Sloped(0), Sloped(0)};  // k0 (g gᵀ + w H)
   };
 
@@ -186,8 +187,9 @@ class PortNeed {
           if (steep) enough.push_back(held * *steep + less);
         }
       }
+      ends.has_a_choice = ends.has_a_choice || enough.size() > stands.size();
       ends.as_it_stands.push_back(least_of(stands, weight));
-      ends.tightest.push_back(least_of(enough, weight));
+      ends.tightest.push_back(enough.size() > stands.size() ? least_of(enough, weight) : ends.as_it_stands.back());
     }
     return ends;
   }
@@ -213,6 +215,7 @@ class PortNeed {
 std::vector<Symmetric<Sloped>> with_each(const std::vector<Symmetric<Sloped>>& sums,
                                          const std::vector<Symmetric<Sloped>>& ends) {
   if (ends.empty()) return sums;
+  if (sums.empty()) return ends;
   std::vector<Symmetric<Sloped>> result;
   for (const Symmetric<Sloped>& sum : sums)
     for (const Symmetric<Sloped>& end : ends) result.push_back(sum + end);
@@ -256,19 +259,21 @@ class Search {
   // Of every sum of ends, as it stands or the tightest of each port: which of both is less is another in every part.
   Largest need_over(const Region& region, double* scale) const {
     const Symmetric<Sloped> none{Sloped(0), Sloped(0), Sloped(0)};
-    std::vector<Symmetric<Sloped>> stands{none}, tightest = stands;
+    std::vector<Symmetric<Sloped>> stands, tightest;
     Symmetric<Sloped> field = none;
+    bool has_a_choice = false;
     for (const PortNeed& port : ports_) {
       const PortNeed::Ends ends = port.over(region.reached, loop_.delay, weight_);
       stands = with_each(stands, ends.as_it_stands);
       tightest = with_each(tightest, ends.tightest);
+      has_a_choice = has_a_choice || ends.has_a_choice;
       field = field + ends.field;
     }
     const Symmetric<Sloped> given = given_ ? given_(region.from) : none;
     Largest least{infinity};
     for (const Symmetric<Sloped>& late : latenesses_of(loop_.delay, field, weight_)) {
-      const Largest one = largest(with_each(stands, {late}), given, scale),
-                    other = largest(with_each(tightest, {late}), given, nullptr);
+      const Largest one = largest(with_each(stands, {late}), given, scale);
+      const Largest other = has_a_choice ? largest(with_each(tightest, {late}), given, nullptr) : one;
       least = std::min({least, one, other}, [](const Largest& a, const Largest& b) { return a.x < b.x; });
     }
     return least;

@@ -1,8 +1,10 @@
 """The test that `--with-test` writes for a law of two axes: it passes where the header is right, and fails where it is not."""
 import json
 import os
+import pathlib
 import re
 import subprocess
+import tempfile
 import unittest
 
 from axes_c99_test import BOARD, SLIPPING
@@ -18,12 +20,25 @@ RELAXING = {"dashpot": 1, "axes": 2, "name": "relaxing", "ports": [
      "network": {"parallel": [{"spring": "90 N/m"}, {"damper": "1 N s/m"}]}}]}
 
 
+STRICT = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+
+
 class AxesResponseTest(CommandTest):
+
+    @classmethod
+    def setUpClass(cls):
+        """GoogleTest is read once, for all programs."""
+        super().setUpClass()
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.precompiled = pathlib.Path(folder.name) / "precompiled.hpp"
+        cls.precompiled.write_text("#include <gtest/gtest.h>\n")
+        subprocess.run([*STRICT, cls.precompiled, "-o", f"{cls.precompiled}.gch"], check=True)
 
     def said(self, name):
         """What the test says, built as its reader would build it."""
-        subprocess.run(["g++", "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-I", ".", "-I", SOURCE / "runtime/include",
-                        f"{name}_test.cpp", "-lgtest", "-lgtest_main", "-o", "law_test"], cwd=self.folder, check=True)
+        subprocess.run([*STRICT, "-include", self.precompiled, "-I", ".", "-I", SOURCE / "runtime/include", f"{name}_test.cpp", "-lgtest",
+                        "-lgtest_main", "-o", "law_test"], cwd=self.folder, check=True)
         done = subprocess.run([self.folder / "law_test"], capture_output=True, text=True)
         self.assertEqual(done.returncode != 0, "[  FAILED  ]" in done.stdout)
         return done.stdout

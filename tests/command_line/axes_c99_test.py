@@ -1,11 +1,13 @@
 """Laws of two axes in C: the bits of the class in C++, and nothing that firmware or a strict compiler would miss."""
 import json
 import math
+import pathlib
 import random
 import shutil
 import struct
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import axes_test
@@ -106,9 +108,21 @@ SLIPPING = {"dashpot": 1, "axes": 2, "name": "slipping", "ports": [
 
 class AxesC99Test(CommandTest):
     simulated = axes_test.AxesTest.simulated
+    compiled = []  # name, scalar, whether it is of joints, folder
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder_of_laws = pathlib.Path(folder.name)
 
     def laws(self):
-        """Networks, options and scalars: every kind of arm that there is, maps, a gate, slips that meet, four brakes, no device."""
+        """Every kind of arm that there is, maps, a gate, slips that meet, four brakes, no device; compiled once for all tests."""
+        if not self.compiled: self.compiled += self.compiled_laws()
+        return self.compiled
+
+    def compiled_laws(self):
         along = [[1, 0], [0, 1], [1, 1], [1, -1]]
         gated = self.write("gated.json", json.dumps(field_of("gated", 1.5, 1.4)))
         prompt = self.write("prompt.json", json.dumps(prompt_arm()))
@@ -124,9 +138,10 @@ class AxesC99Test(CommandTest):
                 (slipping, ["--device", four, "--decomposition", "non-injecting"], ["double", "float"]),
                 (FIELD, ["--device", serial, "--decomposition", "virtual"], ["double"])):
             for scalar in scalars:
+                folder = pathlib.Path(tempfile.mkdtemp(dir=self.folder_of_laws))
                 for target in ("cpp", "c99"):
-                    self.dashpot("compile", network, *options, "--scalar", scalar, "--uncertified", "--target", target)
-                yield json.loads(network.read_text())["name"], scalar, "--device" in options
+                    self.dashpot("compile", network, *options, "--scalar", scalar, "--uncertified", "--target", target, "-o", folder)
+                yield json.loads(network.read_text())["name"], scalar, "--device" in options, folder
 
     def rows(self, is_at_joints):
         """Rests, jumps, and what is no number."""
@@ -142,12 +157,12 @@ class AxesC99Test(CommandTest):
             last = place
         return rows
 
-    def program(self, name, words, head, compiler, source, *more):
+    def program(self, name, words, head, folder, compiler, source, *more):
         text = head + BODY
         for word, meaning in words.items():
             text = text.replace(word, meaning)
         self.write(source, text.replace("NAME", name))
-        subprocess.run([*compiler, *STRICT, "-O1", "-I", ".", source, *more], cwd=self.folder, check=True)
+        subprocess.run([*compiler, *STRICT, "-O1", "-I", folder, source, *more], cwd=self.folder, check=True)
 
     def answers(self, rows):
         return subprocess.run([self.folder / "law"], input="".join(" ".join(map(repr, row)) + "\n" for row in rows), text=True,
@@ -157,26 +172,27 @@ class AxesC99Test(CommandTest):
         """Fails if a law in C answers a sample, or states a fact, otherwise than the class in C++, by one bit, or does not compile where
         the strictest read it, in C or in C++."""
         seen = set()
-        for name, scalar, is_at_joints in self.laws():
+        for name, scalar, is_at_joints, folder in self.laws():
             rows = self.rows(is_at_joints)
-            self.program(name, IN_CPP, '#include "NAME.hpp"', ["g++", "-std=c++17"], "law.cpp", "-I", SOURCE / "runtime/include", "-o", "law")
+            self.program(name, IN_CPP, '#include "NAME.hpp"', folder, ["g++", "-std=c++17"], "law.cpp", "-I", SOURCE / "runtime/include", "-o", "law")
             told = self.answers(rows)
             self.assertGreater(len(set(told)), 50, name)  # the ball is not always touched
             self.assertFalse(any(word in line for line in told[1:] for word in ("nan", "inf")))
             for compiler in (["gcc", "-std=c99"], [shutil.which("clang") or shutil.which("clang-19") or "clang-14", "-std=c99"]):
-                self.program(name, {**IN_C, "SCALAR": scalar}, '#include "NAME.h"', compiler, "law.c", "-o", "law")
+                self.program(name, {**IN_C, "SCALAR": scalar}, '#include "NAME.h"', folder, compiler, "law.c", "-o", "law")
                 self.assertEqual(self.answers(rows), told, (name, scalar, compiler))
-            self.program(name, {**IN_C, "SCALAR": scalar}, '#include "NAME.h"', ["g++", "-x", "c++", "-std=c++17"], "law.c", "-fsyntax-only")
-            header = (self.folder / f"{name}.h").read_text()
+            self.program(name, {**IN_C, "SCALAR": scalar}, '#include "NAME.h"', folder, ["g++", "-x", "c++", "-std=c++17"], "law.c",
+                         "-fsyntax-only")
+            header = (folder / f"{name}.h").read_text()
             seen |= {part for part in ("_square_root(", "_tree_step(", "gate", "dashpot_flush_below", "_brakes = 4") if part in header}
         self.assertEqual(len(seen), 5, seen)
 
     def test_a_law_needs_nothing_but_to_copy_and_to_clear(self):
         """Fails if a law in C includes a file, or needs a library."""
-        for name, scalar, _ in self.laws():
-            self.assertNotIn("#include", (self.folder / f"{name}.h").read_text())
+        for name, scalar, _, folder in self.laws():
+            self.assertNotIn("#include", (folder / f"{name}.h").read_text())
             self.write("law.c", f'#include "{name}.h"' + ALL_OF_IT.replace("NAME", name).replace("SCALAR", scalar))
-            subprocess.run(["gcc", "-std=c99", "-ffreestanding", "-O2", "-fno-stack-protector", "-c", "law.c"], cwd=self.folder, check=True)
+            subprocess.run(["gcc", "-std=c99", "-ffreestanding", "-O2", "-fno-stack-protector", "-I", folder, "-c", "law.c"], cwd=self.folder, check=True)
             undefined = subprocess.run(["nm", "-u", "law.o"], cwd=self.folder, check=True, capture_output=True, text=True).stdout
             self.assertLessEqual(set(undefined.split()) - {"U"}, {"memcpy", "memmove", "memset"})
 
@@ -223,8 +239,8 @@ int main() {
 
     def test_the_banner_is_that_of_the_class(self):
         """Fails if the header in C says less, or something else, of the law than that in C++."""
-        for name, _, _ in self.laws():
-            cpp, c99 = ((self.folder / (name + suffix)).read_text().split("// Written by")[0] for suffix in (".hpp", ".h"))
+        for name, _, _, folder in self.laws():
+            cpp, c99 = ((folder / (name + suffix)).read_text().split("// Written by")[0] for suffix in (".hpp", ".h"))
             self.assertEqual(c99, cpp)
             self.assertIn("passivity", c99)
 

@@ -200,7 +200,7 @@ class Verify(CommandTest):
                 [SOURCE / "networks/tunable/friction_tunable.json", "--device", BOARD]]
         told_before = set()  # sentences but for their numbers: each kind is forged in one law at least
         for i, law in enumerate(laws):
-            header, certificate = self.emitted(law, f"law_{i}")
+            header, certificate = self.emitted_once(law, f"law_{i}")
             self.verify(header, certificate, "sound")
             code = header.index("#pragma once")
             banner = header[:code]
@@ -525,7 +525,7 @@ class Verify(CommandTest):
                 [SOURCE / "networks/tunable/second_order_maxwell_tunable.json", "--device", PANTOGRAPH]]
         for i, law in enumerate(laws):
             with self.subTest(law=law):
-                header, certificate = self.emitted(law, f"law_{i}")
+                header, certificate = self.emitted_once(law, f"law_{i}")
                 for wrong in (1 - 1e-7, 1 + 1e-7, None):
                     told = json.loads(certificate)
                     gain = told["passivity"]["quantisation_gain"]

@@ -110,6 +110,7 @@ void tell_what_is_felt(Compilation& c, const Network& present, const Choices& ch
   Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
   CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
   choice.largest_error = settler.largest_error(choice, added_at_tool(c));
+  if (choices.compared == Compared::nothing) return;
   c.decomposition.in_words = choice_in_words(
       c.decomposition, {port_units(c.network.port_motion), device.max_damping().value_or(0), device.steepest(),
                         has_tunables(c.network), to_double(zero_frequency_damping(c.form.linear)),
@@ -237,8 +238,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   // With tunable parameters nothing has to be run, but `faithful` leaves the slips another share of the brake.
   const bool slips_are_as_split = is_tunable && result.decomposition.choice().name != "faithful";
   if (result.form.has_slips() && !slips_are_as_split) choose_slip_law(result, choices, result.port);
-  settle_compared(result, present, choices, result.port);
-  if (result.decomposition.choice().faithful && choices.varies_assumed)
+  if (choices.compared != Compared::nothing) settle_compared(result, present, choices, result.port);
+  if (result.decomposition.choice().faithful && choices.compared == Compared::variations)
     result.decomposition.moves = moves_of(result, present, choices, gap);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
   times.enter("discretisation");

@@ -108,7 +108,7 @@ std::optional<std::vector<Compilation>> ports_on(Network& network, const Choices
   if (!device) return each_port(network, choices, device, whole, diagnostics);
   Diagnostics unheard;
   Choices quickly = choices;
-  quickly.varies_assumed = false;
+  quickly.compared = Compared::nothing;
   const auto alone = each_port(network, quickly, device, whole, unheard);
   return each_port(network, choices, device, alone ? shares_of(*alone) : whole, diagnostics);
 }

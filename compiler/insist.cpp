@@ -40,7 +40,7 @@ const Lateness limited_slew{"no \"slew\"", [](device_description& d) { d.motor.s
 std::optional<Compilation> compiled(const Network& network, Choices choices, const Device& device) {
   Diagnostics unheard;
   StageTimes unseen;
-  choices.varies_assumed = false;  // nothing is told of it
+  choices.compared = Compared::nothing;
   return compile(network, choices, device, unheard, unseen);
 }
 

@@ -154,7 +154,7 @@ class PortNeed {
   // beside the field.
   struct Ends {
     std::vector<Symmetric<Sloped>> as_it_stands, tightest;
-    bool has_a_choice = false;  // otherwise both are the same
+    bool has_a_choice = false;                                 // otherwise both are the same
     Symmetric<Sloped> field{Sloped(0), Sloped(0), Sloped(0)};  // k0 (g gᵀ + w H)
   };
 

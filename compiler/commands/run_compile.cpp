@@ -199,7 +199,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
     }
     if (file && !as_many_axes(*file, device, diagnostics)) continue;
     Choices choices = options.choices;
-    choices.varies_assumed = options.target->explains;  // as `explain` does
+    if (options.target->explains) choices.compared = Compared::variations;  // as `explain` does
     const std::optional<Compilation> compilation =
         file ? compile(*file, choices, device.device, diagnostics, times) : std::nullopt;
     times.enter("emission");

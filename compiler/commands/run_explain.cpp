@@ -43,7 +43,7 @@ ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& 
   }
   if (!as_many_axes(*file, device, diagnostics)) return ExitStatus::input_refused;
   Choices choices = options.choices;
-  choices.varies_assumed = !options.as;
+  if (!options.as) choices.compared = Compared::variations;
   std::optional<Compilation> compilation = compile(*file, choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
   if (options.as) {

@@ -33,7 +33,7 @@ ExitStatus run_report(const Options& options, SourceFiles& files, Diagnostics& d
   if (has_two_axes(*file)) return report_axes(*file, device, options, diagnostics);
   if (!as_many_axes(*file, device, diagnostics)) return ExitStatus::input_refused;
   Choices choices = options.choices;
-  choices.varies_assumed = true;
+  choices.compared = Compared::variations;
   std::optional<Compilation> compilation = compile(*file, choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
   warn_of_felt_error(*compilation, choices, diagnostics);

@@ -11,6 +11,9 @@ namespace dashpot::compiler {
 enum class Scheme { exact, backward_euler };
 enum class StateInput { position, velocity, nodal };
 enum class ScalarType { float64, float32 };
+// What the choice is compared with, to be told of: nothing where it is only tried; other candidates; and itself where
+// what the device file assumes varies, which takes as long as all else.
+enum class Compared { nothing, candidates, variations };
 // Of the machine that rolled loops are laid out for.
 enum class VectorRegisters { none, sse2, avx2, avx512, neon };
 
@@ -28,8 +31,7 @@ struct Choices {
   // A name of theory, section 4, or a damping [SI]; empty: `faithful` on a device and with slips, else `paper`.
   std::variant<std::string, double> decomposition = "";
   double tolerance = 0.05;  // of what is felt, that `faithful` may err by [1]
-  // Whether `faithful` looks how it moves over what the device file assumes, which takes as long as all else.
-  bool varies_assumed = false;
+  Compared compared = Compared::candidates;
   ScalarType scalar = ScalarType::float64;
   VectorRegisters registers = VectorRegisters::sse2;  // sixteen bytes: what every x86-64 and every AArch64 has
   bool guards_each_sample = false;  // against subnormals, also where they could take turns: many points share no turn

@@ -68,7 +68,11 @@ std::optional<std::string> verify_axes_texts(const SourceFile& certificate_file,
         axes_certificate_text(*compiled, certificate->network_text, certificate->device_text, header.text());
     compare_certificates(certificate_file, files.keep("certificate written again", std::move(again)), diagnostics);
   }
-  if (diagnostics.has_errors()) return std::nullopt;
+  if (diagnostics.has_errors()) {
+    tell_of_another_compile(header, compiled->has_device ? compiled->device.name : "ideal", 1 / compiled->rate,
+                            diagnostics);
+    return std::nullopt;
+  }
   const AxesCertificate& proved = compiled->certificate;
   const std::string why_not = why_not_certified(proved, compiled->device);
   if (!proved.certified && !allow_uncertified) {

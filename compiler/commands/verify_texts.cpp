@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "check/check.hpp"
 #include "commands/verify_axes_texts.hpp"
 #include "compile.hpp"
@@ -35,15 +33,6 @@ std::vector<std::string> emitted(const Compilation& compiled, bool of_many_point
       texts.push_back(std::move(files->at(of_many_points ? 1 : 0).text));
   }
   return texts;
-}
-
-// The name in `certified_for`; empty where there is none.
-std::string device_named_in(std::string_view header) {
-  constexpr std::string_view before = "const char* device = \"";
-  const std::size_t at = header.find(before);
-  if (at == header.npos) return "";
-  const std::size_t begin = at + before.size();
-  return std::string(header.substr(begin, header.find('"', begin) - begin));
 }
 
 class TextsVerification {
@@ -102,18 +91,9 @@ class TextsVerification {
     return count;
   }
 
-  // Of a header that was written by another `compile` nearly everything is wrong, which is the reason for all of it.
   void tell_of_another_compile(const SourceFile& header) const {
-    const std::optional<HeaderConstants> constants = header_constants(header.text());
-    if (!constants || !compiled_) return;
-    const std::string device = device_named_in(header.text()), due = device_ ? device_->name : "ideal";
-    const double period = 1 / compiled_->rate;
-    for (const HeaderConstant& constant : constants->all) {
-      if (constant.name != "sample_period") continue;
-      const double told = constant.values.front();
-      if (std::abs(told - period) <= 1e-6 * period && device == due) continue;
-      diagnostics_.note<DiagnosticCode::of_another_compile>({}, device, told, due, period);
-    }
+    if (!compiled_) return;
+    compiler::tell_of_another_compile(header, device_ ? device_->name : "ideal", 1 / compiled_->rate, diagnostics_);
   }
 
   const Network& network() const { return *network_; }

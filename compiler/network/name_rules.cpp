@@ -50,13 +50,17 @@ bool contains(const std::string_view (&list)[size], std::string_view name) {
   return std::find(std::begin(list), std::end(list), name) != std::end(list);
 }
 
+constexpr std::string_view begin_of_macros = "DASHPOT_";
+
 bool is_legal(std::string_view name) {
   return has_name_form(name) && name.find("__") == std::string_view::npos && !contains(keywords, name) &&
-         !contains(members, name);
+         !contains(members, name) && !name.starts_with(begin_of_macros);
 }
 
-// Other bytes become single underscores, none at the ends; digits in front and reserved words get company.
+// Other bytes become single underscores, none at the ends; digits in front and reserved words get company. What macros
+// begin with goes.
 std::optional<std::string> legal_proposal(std::string_view name) {
+  while (name.starts_with(begin_of_macros)) name.remove_prefix(begin_of_macros.size());
   std::string proposal;
   for (const char byte : name)
     if (is_letter(byte) || is_digit(byte)) proposal += byte;
@@ -73,6 +77,8 @@ void report_name(const Text& name, std::string_view owner, Diagnostics& diagnost
     diagnostics.report<DiagnosticCode::name_with_double_underscore>(name.span, owner, excerpt(name.text));
   else if (contains(keywords, name.text))
     diagnostics.report<DiagnosticCode::name_is_keyword>(name.span, owner, name.text);
+  else if (name.text.starts_with(begin_of_macros))
+    diagnostics.report<DiagnosticCode::name_begins_like_macros>(name.span, owner, name.text, begin_of_macros);
   else diagnostics.report<DiagnosticCode::name_is_member>(name.span, owner, name.text);
 }
 

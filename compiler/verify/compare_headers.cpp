@@ -1,10 +1,12 @@
 #include "verify/compare_headers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "source/excerpt.hpp"
+#include "verify/header_constants.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -38,6 +40,15 @@ std::string excerpt_at(std::string_view text, std::size_t at) {
   return excerpt(text.substr(start, std::min(text.find('\n', at), text.size()) - start));
 }
 
+// The name in `certified_for`; empty where there is none.
+std::string device_named_in(std::string_view header) {
+  constexpr std::string_view before = "const char* device = \"";
+  const std::size_t at = header.find(before);
+  if (at == header.npos) return "";
+  const std::size_t begin = at + before.size();
+  return std::string(header.substr(begin, header.find('"', begin) - begin));
+}
+
 }  // namespace
 
 void compare_headers(const std::vector<std::string>& written, const SourceFile& header, Diagnostics& diagnostics) {
@@ -59,6 +70,19 @@ void compare_headers(const std::vector<std::string>& written, const SourceFile& 
   if (in_banner) diagnostics.report<DiagnosticCode::banner_differs>(place, excerpt_at(found, furthest));
   else diagnostics.report<DiagnosticCode::code_differs>(place, excerpt_at(found, furthest));
   if (!written.empty()) diagnostics.note<DiagnosticCode::code_expected>({}, expected_there);
+}
+
+void tell_of_another_compile(const SourceFile& header, const std::string& device, double sample_period,
+                             Diagnostics& diagnostics) {
+  const std::optional<HeaderConstants> constants = header_constants(header.text());
+  if (!constants) return;
+  const std::string told_device = device_named_in(header.text());
+  for (const HeaderConstant& constant : constants->all) {
+    if (constant.name != "sample_period") continue;
+    const double told = constant.values.front();
+    if (std::abs(told - sample_period) <= 1e-6 * sample_period && told_device == device) continue;
+    diagnostics.note<DiagnosticCode::of_another_compile>({}, told_device, told, device, sample_period);
+  }
 }
 
 }  // namespace dashpot::compiler

@@ -219,6 +219,17 @@ class AxesVerify(CommandTest):
         self.assertIn("[no-certificate]", self.verified(header, json.dumps(stated), status=INPUT_REFUSED).stderr)
         self.assertIn("[no-emitted-header]", self.verified("", certificate, status=INPUT_REFUSED).stderr)
 
+    # If this fails, whoever has mixed two compiles up is told what is wrong in one of them, and not that.
+    def test_texts_of_two_compiles(self):
+        header, _ = self.compiled(FIELD, "--rate", "1000")
+        _, certificate = self.compiled(FIELD, "--device", PANTOGRAPH)
+        told = self.verified(header, certificate, status=INPUT_REFUSED).stderr
+        self.assertIn("they were not written together: the header is of device 'ideal' with samples of 0.001 s", told)
+        wrong = json.loads(certificate)
+        wrong["passivity"]["needed_damping"] *= 1.5
+        header, _ = self.compiled(FIELD, "--device", PANTOGRAPH)
+        self.assertNotIn("not written together", self.verified(header, json.dumps(wrong), status=INPUT_REFUSED).stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -31,6 +31,8 @@ inline double below(double x) {
 }
 inline double above(double x) { return -below(-x); }
 
+inline bool is_zero(const Interval& a) { return a.low == 0 && a.high == 0; }
+
 inline Interval operator-(const Interval& a) { return {-a.high, -a.low}; }
 
 // What is added to 0 stays what it is.
@@ -46,9 +48,9 @@ Interval product_beyond_numbers(const Interval& a, const Interval& b);
 
 // A product of two that do not change their sign does not either, and one with 0 is 0.
 inline Interval operator*(const Interval& a, const Interval& b) {
+  if (is_zero(a) || is_zero(b)) return Interval(0);
   if (!((a.high - a.low) + (b.high - b.low) < std::numeric_limits<double>::infinity()))
     return product_beyond_numbers(a, b);
-  if ((a.low == 0 && a.high == 0) || (b.low == 0 && b.high == 0)) return Interval(0);
   const double ends[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
   const double low = below(std::min(std::min(ends[0], ends[1]), std::min(ends[2], ends[3])));
   const double high = above(std::max(std::max(ends[0], ends[1]), std::max(ends[2], ends[3])));

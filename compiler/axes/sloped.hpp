@@ -31,7 +31,7 @@ struct Sloped {
       : value(value_over), middle(in_middle), slope(slope_over) {
     double most = 0;
     for (const Interval& one : slope)
-      if (one.low != 0 || one.high != 0) most = above(most + abs(one).high);
+      if (!is_zero(one)) most = above(most + abs(one).high);
     const Interval near = middle + Interval(-most, most);
     if (near.low > value.low) value.low = near.low;
     if (near.high < value.high) value.high = near.high;
@@ -49,29 +49,16 @@ inline Sloped variable(const Interval& over, std::size_t j) {
 
 inline Pair<Sloped> variables(const Box& box) { return {variable(box[0], 0), variable(box[1], 1)}; }
 
-inline bool is_zero(const Interval& a) { return a.low == 0 && a.high == 0; }
-
-// Of most terms half of the derivatives are 0, and those of numbers are all.
-inline Interval scaled(const Interval& by, const Interval& slope) { return is_zero(slope) ? slope : by * slope; }
-
-inline Slopes scaled(const Interval& by, const Slopes& a) {
-  Slopes result;
-  for (std::size_t j = 0; j < result.size(); ++j) result[j] = scaled(by, a[j]);
-  return result;
-}
-
 // first·a + second·b of the derivatives of two.
 inline Slopes combined(const Interval& first, const Slopes& a, const Interval& second, const Slopes& b) {
   Slopes result;
-  for (std::size_t j = 0; j < result.size(); ++j) {
-    if (is_zero(b[j])) {
-      result[j] = scaled(first, a[j]);
-    } else if (is_zero(a[j])) {
-      result[j] = second * b[j];
-    } else {
-      result[j] = first * a[j] + second * b[j];
-    }
-  }
+  for (std::size_t j = 0; j < result.size(); ++j) result[j] = first * a[j] + second * b[j];
+  return result;
+}
+
+inline Slopes scaled(const Interval& by, const Slopes& a) {
+  Slopes result;
+  for (std::size_t j = 0; j < result.size(); ++j) result[j] = by * a[j];
   return result;
 }
 

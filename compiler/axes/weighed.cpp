@@ -41,8 +41,7 @@ Largest weighed(const Symmetric<Sloped>& n, const Pair<double>& weight) {
   corners[0].scaled = scaled(n.xx.middle, n.xy.middle, n.yy.middle);
   std::size_t count = 1;
   for (std::size_t j = 0; j < std::tuple_size_v<Slopes>; ++j) {
-    const auto is_level = [&](const Sloped& s) { return s.slope[j].low == 0 && s.slope[j].high == 0; };
-    if (is_level(n.xx) && is_level(n.xy) && is_level(n.yy)) continue;
+    if (is_zero(n.xx.slope[j]) && is_zero(n.xy.slope[j]) && is_zero(n.yy.slope[j])) continue;
     const Symmetric<Interval> way = scaled(n.xx.slope[j], n.xy.slope[j], n.yy.slope[j]);
     for (std::size_t i = 0; i < count; ++i) {
       Corner &ahead = corners[i], &behind = corners[count + i];

@@ -154,7 +154,7 @@ class PortNeed {
   // beside the field.
   struct Ends {
     std::vector<Symmetric<Sloped>> as_it_stands, tightest;
-    bool has_a_choice = false;                                 // otherwise both are the same
+    bool has_a_choice = false;                                 // where there is none, both are the same
     Symmetric<Sloped> field{Sloped(0), Sloped(0), Sloped(0)};  // k0 (g gᵀ + w H)
   };
 
@@ -172,6 +172,7 @@ class PortNeed {
     const double late_force = delay * abs(motor_force(rest_, depth.value.value, range_)).high;
     const std::vector<Symmetric<Sloped>> latenesses = latenesses_of(late_force, hessian, weight);
     Ends ends;
+    ends.has_a_choice = steep || lessened;
     if (rest_.grounded < load_.grounded) ends.field = Sloped(load_.grounded) * (steepness + depth.value * hessian);
     for (const ForceForm& form : force_ends(load_, depth.value.value, range_)) {
       const Sloped half = Sloped(0.5) * form.at(depth.value);
@@ -187,9 +188,8 @@ class PortNeed {
           if (steep) enough.push_back(held * *steep + less);
         }
       }
-      ends.has_a_choice = ends.has_a_choice || enough.size() > stands.size();
       ends.as_it_stands.push_back(least_of(stands, weight));
-      ends.tightest.push_back(enough.size() > stands.size() ? least_of(enough, weight) : ends.as_it_stands.back());
+      ends.tightest.push_back(ends.has_a_choice ? least_of(enough, weight) : ends.as_it_stands.back());
     }
     return ends;
   }

@@ -118,8 +118,8 @@ class AxesC99Test(CommandTest):
         cls.folder_of_laws = pathlib.Path(folder.name)
 
     def laws(self):
-        """Every kind of arm that there is, maps, a gate, slips that meet, four brakes, no device; compiled once for all tests."""
-        if not self.compiled: self.compiled += self.compiled_laws()
+        """Every kind of arm that there is, maps, a gate, slips that meet, four brakes, no device; compiled once for all."""
+        if not self.compiled: self.compiled += list(self.compiled_laws())
         return self.compiled
 
     def compiled_laws(self):
@@ -140,7 +140,8 @@ class AxesC99Test(CommandTest):
             for scalar in scalars:
                 folder = pathlib.Path(tempfile.mkdtemp(dir=self.folder_of_laws))
                 for target in ("cpp", "c99"):
-                    self.dashpot("compile", network, *options, "--scalar", scalar, "--uncertified", "--target", target, "-o", folder)
+                    self.dashpot("compile", network, *options, "--scalar", scalar, "--uncertified", "--target", target,
+                                 "-o", folder)
                 yield json.loads(network.read_text())["name"], scalar, "--device" in options, folder
 
     def rows(self, is_at_joints):
@@ -174,15 +175,16 @@ class AxesC99Test(CommandTest):
         seen = set()
         for name, scalar, is_at_joints, folder in self.laws():
             rows = self.rows(is_at_joints)
-            self.program(name, IN_CPP, '#include "NAME.hpp"', folder, ["g++", "-std=c++17"], "law.cpp", "-I", SOURCE / "runtime/include", "-o", "law")
+            self.program(name, IN_CPP, '#include "NAME.hpp"', folder, ["g++", "-std=c++17"], "law.cpp",
+                         "-I", SOURCE / "runtime/include", "-o", "law")
             told = self.answers(rows)
             self.assertGreater(len(set(told)), 50, name)  # the ball is not always touched
             self.assertFalse(any(word in line for line in told[1:] for word in ("nan", "inf")))
+            in_c = {**IN_C, "SCALAR": scalar}
             for compiler in (["gcc", "-std=c99"], [shutil.which("clang") or shutil.which("clang-19") or "clang-14", "-std=c99"]):
-                self.program(name, {**IN_C, "SCALAR": scalar}, '#include "NAME.h"', folder, compiler, "law.c", "-o", "law")
+                self.program(name, in_c, '#include "NAME.h"', folder, compiler, "law.c", "-o", "law")
                 self.assertEqual(self.answers(rows), told, (name, scalar, compiler))
-            self.program(name, {**IN_C, "SCALAR": scalar}, '#include "NAME.h"', folder, ["g++", "-x", "c++", "-std=c++17"], "law.c",
-                         "-fsyntax-only")
+            self.program(name, in_c, '#include "NAME.h"', folder, ["g++", "-x", "c++", "-std=c++17"], "law.c", "-fsyntax-only")
             header = (folder / f"{name}.h").read_text()
             seen |= {part for part in ("_square_root(", "_tree_step(", "gate", "dashpot_flush_below", "_brakes = 4") if part in header}
         self.assertEqual(len(seen), 5, seen)
@@ -192,7 +194,8 @@ class AxesC99Test(CommandTest):
         for name, scalar, _, folder in self.laws():
             self.assertNotIn("#include", (folder / f"{name}.h").read_text())
             self.write("law.c", f'#include "{name}.h"' + ALL_OF_IT.replace("NAME", name).replace("SCALAR", scalar))
-            subprocess.run(["gcc", "-std=c99", "-ffreestanding", "-O2", "-fno-stack-protector", "-I", folder, "-c", "law.c"], cwd=self.folder, check=True)
+            subprocess.run(["gcc", "-std=c99", "-ffreestanding", "-O2", "-fno-stack-protector", "-I", folder, "-c", "law.c"],
+                           cwd=self.folder, check=True)
             undefined = subprocess.run(["nm", "-u", "law.o"], cwd=self.folder, check=True, capture_output=True, text=True).stdout
             self.assertLessEqual(set(undefined.split()) - {"U"}, {"memcpy", "memmove", "memset"})
 

@@ -14,13 +14,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "support/random.hpp"
+#include "support/shell_command.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -45,12 +44,6 @@ void leave_input(int signal) {
   raise(signal);
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::runtime_error("cannot read " + file.string());
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 // In the order of their names; of a folder all that is in it, and below.
 std::vector<std::string> seeds_in(const fs::path& path, std::size_t largest) {
   std::vector<fs::path> files;
@@ -60,7 +53,7 @@ std::vector<std::string> seeds_in(const fs::path& path, std::size_t largest) {
       if (entry.is_regular_file()) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   std::vector<std::string> seeds;
-  for (const fs::path& file : files) seeds.push_back(text_of(file).substr(0, largest));
+  for (const fs::path& file : files) seeds.push_back(dashpot::testing::text_of(file).substr(0, largest));
   return seeds;
 }
 

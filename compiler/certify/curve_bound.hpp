@@ -41,11 +41,10 @@ double yield_forces(const Network& network);
 
 // A stretch of the map, with all places that the tool may come to within a hold.
 struct CurveStretch {
-  double from, to;           // without those [m]
-  double steepest;           // the largest w′ [1]
-  double largest_curvature;  // of |w″| [1/m]
-  std::vector<double>
-      flattest;  // the least w′ where the tool may have been, for each time that a coil may have had [1]
+  double from, to;               // without those [m]
+  double steepest;               // the largest w′ [1]
+  double largest_curvature;      // of |w″| [1/m]
+  std::vector<double> flattest;  // the least w′ where the tool may have been, for each time of a coil [1]
 };
 
 // All that the tool reaches of a map on a device.

@@ -37,8 +37,8 @@ class AxesResponseTest(CommandTest):
 
     def said(self, name):
         """What the test says, built as its reader would build it."""
-        subprocess.run([*STRICT, "-include", self.precompiled, "-I", ".", "-I", SOURCE / "runtime/include", f"{name}_test.cpp", "-lgtest",
-                        "-lgtest_main", "-o", "law_test"], cwd=self.folder, check=True)
+        subprocess.run([*STRICT, "-include", self.precompiled, "-I", ".", "-I", SOURCE / "runtime/include",
+                        f"{name}_test.cpp", "-lgtest", "-lgtest_main", "-o", "law_test"], cwd=self.folder, check=True)
         done = subprocess.run([self.folder / "law_test"], capture_output=True, text=True)
         self.assertEqual(done.returncode != 0, "[  FAILED  ]" in done.stdout)
         return done.stdout

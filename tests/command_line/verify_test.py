@@ -621,7 +621,8 @@ class Certified(CommandTest):
 
         found = set()
         more = os.environ.get("DASHPOT_LONG") == "1"
-        for name, brakes in {"linear": ["0.6 N s/m", "0.75 N s/m"] if more else ["0.75 N s/m"], "following": ["0.6 N s/m"],
+        for name, brakes in {"linear": ["0.6 N s/m", "0.75 N s/m"] if more else ["0.75 N s/m"],
+                             "following": ["0.6 N s/m"],
                              "rubbing": ["0.6 N s/m", "1.2 N s/m"] if more else ["0.6 N s/m"]}.items():
             for brake in brakes:
                 with self.subTest(name=name, brake=brake):

@@ -1,11 +1,9 @@
 #include <dashpot/simulated/compliant_plant.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <dashpot/simulated/gauss.hpp>
-#include <dashpot/simulated/longest_step.hpp>
 
 namespace dashpot::simulated {
 namespace {
@@ -39,14 +37,7 @@ void solve(double (&matrix)[4][4], double (&right)[4]) {
 }  // namespace
 
 compliant_plant::compliant_plant(const device_description& device, const scenario& scene)
-    : mechanics_(device.mechanics),
-      drives_(device, scene),
-      ratio_(tool_over_joint(device, scene)),
-      user_(at_joint(scene.user, ratio_)),
-      intended_(scene.intended),
-      low_(scene.low, -1, ratio_),
-      high_(scene.high, +1, ratio_),
-      longest_step_(longest_step(device, scene, user_, ratio_)),
+    : stepped_plant(device, scene),
       shaft_inertia_(mechanics_.inertia - mechanics_.mode.mass),
       stiffness_(reduced_mass(mechanics_) * turn * mechanics_.mode.frequency * turn * mechanics_.mode.frequency),
       structure_damping_(2 * mechanics_.mode.damping_ratio * reduced_mass(mechanics_) * turn *
@@ -58,42 +49,6 @@ compliant_plant::compliant_plant(const device_description& device, const scenari
   settle();
 }
 
-void compliant_plant::advance(double duration, double end, const actuation& demand, shaft_sensors& sensors) noexcept {
-  drives_.demand(demand);
-  settle();
-  const double held = user_.release_time - shaft_.time;
-  if (held < duration) {
-    integrate_evenly(std::max(held, 0.0), sensors);
-    duration -= std::max(held, 0.0);
-    user_ = no_hand();
-    usual_grip_ = {};
-    settle();
-  }
-  integrate_evenly(duration, sensors);
-  shaft_.time = tool_.time = end;
-}
-
-void compliant_plant::integrate_evenly(double duration, shaft_sensors& sensors) noexcept {
-  const double steps = std::ceil(duration / longest_step_ - 1e-6);
-  for (double done = 0; done < steps; ++done) integrate(duration / steps, sensors);
-}
-
-// One step, cut into pieces where an event lies within it.
-void compliant_plant::integrate(double duration, shaft_sensors& sensors) noexcept {
-  if (usual_grip_.duration() != duration) usual_grip_ = hand_step(user_, duration);
-  constexpr int most_events = 64;  // only an upper bound: a step sees one or two
-  for (int events = 0; events < most_events; ++events) {
-    const step whole = attempt(duration);
-    if (is_consistent(whole)) return commit(whole, sensors);
-    const double until = first_event(duration);
-    commit(attempt(until), sensors);
-    settle();
-    duration -= until;
-    if (!(duration > 0)) return;  // it was at the very end
-  }
-  commit(attempt(duration), sensors);
-}
-
 void compliant_plant::commit(const step& done, shaft_sensors& sensors) noexcept {
   sensors.follow(shaft_, done.shaft);
   shaft_ = done.shaft;
@@ -102,11 +57,6 @@ void compliant_plant::commit(const step& done, shaft_sensors& sensors) noexcept 
   drives_.advance(done.duration);
   ledger_ += done.work;
   ledger_.kinetic = kinetic() - kinetic_at_start_;
-}
-
-compliant_plant::step compliant_plant::attempt(double duration) const noexcept {
-  if (duration == usual_grip_.duration()) return attempt(duration, usual_grip_);
-  return attempt(duration, hand_step(user_, duration));
 }
 
 compliant_plant::step compliant_plant::attempt(double duration, const hand_step& grip) const noexcept {
@@ -212,17 +162,6 @@ void compliant_plant::add_work(const stages& s, const hand_step& grip, step& don
   }
 }
 
-// The shortest time, to a billionth of `duration`, after which the step is no longer consistent.
-double compliant_plant::first_event(double duration) const noexcept {
-  double before = 0;
-  double after = duration;
-  while (after - before > 1e-9 * duration) {
-    const double middle = (before + after) / 2;
-    (is_consistent(attempt(middle)) ? before : after) = middle;
-  }
-  return after;
-}
-
 // Whether the step has ended in the same state of sticking, sliding, engagement and touching as it began in.
 bool compliant_plant::is_consistent(const step& candidate) const noexcept {
   if (half_backlash_ > 0 && would_engage(candidate.shaft, candidate.tool) != side_) return false;
@@ -262,47 +201,23 @@ double compliant_plant::structure_force(const shaft_motion& shaft, const shaft_m
          structure_damping() * (tool.velocity - shaft.velocity);
 }
 
-double compliant_plant::stop_force(double position, double velocity) const noexcept {
-  return low_.force(position, velocity) + high_.force(position, velocity);
-}
-
 double compliant_plant::kinetic() const noexcept {
   return (shaft_inertia_ * shaft_.velocity * shaft_.velocity + mechanics_.mode.mass * tool_.velocity * tool_.velocity) /
          2;
 }
 
-motion_point compliant_plant::intended(double time) const noexcept {
-  if (!intended_) return {};
-  const motion_point tool = intended_(time);
-  return {tool.position / ratio_, tool.velocity / ratio_};
-}
-
 plant_view compliant_plant::view() const noexcept {
-  plant_view seen;
-  seen.time = shaft_.time;
-  seen.position = shaft_.position;
-  seen.velocity = shaft_.velocity;
+  plant_view seen = view_of_shaft();
   seen.tool_position = tool_.position;
   seen.tool_velocity = tool_.velocity;
-  seen.motor_torque = drives_.torque();
-  seen.brake_damping = drives_.at_speed(drives_.damping(), shaft_.velocity);
   seen.stop_torque = stop_force(tool_.position, tool_.velocity);
   seen.stuck = stuck_;
   const double pull = structure_force(shaft_, tool_);
   seen.friction_torque = stuck_ ? seen.motor_torque + pull : direction_ * mechanics_.coulomb_friction;
-  const double grip = force_of(user_, grip_, intended(tool_.time), tool_.velocity);
+  const double grip = force_of(user_, grip_, intended(shaft_.time), tool_.velocity);
   const double acceleration = (grip - seen.stop_torque - pull) / (mechanics_.mode.mass + user_.mass);
   seen.hand_torque = grip - user_.mass * acceleration;
   return seen;
-}
-
-plant_view compliant_plant::view_under(const actuation& demand) const noexcept {
-  drives next = drives_;
-  next.demand(demand);
-  plant_view now = view();
-  now.motor_torque = next.torque();
-  now.brake_damping = next.at_speed(next.damping_after(0), shaft_.velocity);
-  return now;
 }
 
 }  // namespace dashpot::simulated

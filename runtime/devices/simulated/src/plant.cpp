@@ -1,65 +1,19 @@
 #include <dashpot/simulated/plant.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 #include <dashpot/simulated/gauss.hpp>
-#include <dashpot/simulated/longest_step.hpp>
 
 namespace dashpot::simulated {
 
 plant::plant(const device_description& device, const scenario& scene)
-    : mechanics_(device.mechanics),
-      drives_(device, scene),
-      ratio_(tool_over_joint(device, scene)),
-      user_(scene.prescribed ? no_hand() : at_joint(scene.user, ratio_)),
-      intended_(scene.intended),
-      prescribed_(scene.prescribed),
-      low_(scene.low, -1, ratio_),
-      high_(scene.high, +1, ratio_),
-      longest_step_(longest_step(device, scene, user_, ratio_)) {
+    : stepped_plant(device, scene), prescribed_(scene.prescribed) {
   const motion_point start =
       prescribed_ ? intended(0) : motion_point{scene.initial_position / ratio_, scene.initial_velocity / ratio_};
   shaft_ = {0, start.position, start.velocity};
   grip_ = taking_hold_at(user_, start.position);
   kinetic_at_start_ = kinetic(start.velocity);
   settle();
-}
-
-void plant::advance(double duration, double end, const actuation& demand, shaft_sensors& sensors) noexcept {
-  drives_.demand(demand);
-  if (direction_ == 0) settle();
-  const double held = user_.release_time - shaft_.time;
-  if (held < duration) {
-    integrate_evenly(std::max(held, 0.0), sensors);
-    duration -= std::max(held, 0.0);
-    user_ = no_hand();
-    usual_grip_ = {};
-    settle();
-  }
-  integrate_evenly(duration, sensors);
-  shaft_.time = end;
-}
-
-void plant::integrate_evenly(double duration, shaft_sensors& sensors) noexcept {
-  const double steps = std::ceil(duration / longest_step_ - 1e-6);
-  for (double done = 0; done < steps; ++done) integrate(duration / steps, sensors);
-}
-
-// One step, cut into pieces where an event lies within it.
-void plant::integrate(double duration, shaft_sensors& sensors) noexcept {
-  if (usual_grip_.duration() != duration) usual_grip_ = hand_step(user_, duration);
-  constexpr int most_events = 64;  // only an upper bound: a step sees one or two
-  for (int events = 0; events < most_events; ++events) {
-    const step whole = attempt(duration);
-    if (is_consistent(whole)) return commit(whole, sensors);
-    const double until = first_event(duration);
-    commit(attempt(until), sensors);
-    settle();
-    duration -= until;
-    if (!(duration > 0)) return;  // it was at the very end
-  }
-  commit(attempt(duration), sensors);
 }
 
 void plant::commit(const step& done, shaft_sensors& sensors) noexcept {
@@ -71,13 +25,8 @@ void plant::commit(const step& done, shaft_sensors& sensors) noexcept {
   ledger_.kinetic = kinetic(shaft_.velocity) - kinetic_at_start_;
 }
 
-plant::step plant::attempt(double duration) const noexcept {
+plant::step plant::attempt(double duration, const hand_step& grip) const noexcept {
   if (prescribed_) return follow(duration);
-  if (duration == usual_grip_.duration()) return hold_or_slide(duration, usual_grip_);
-  return hold_or_slide(duration, hand_step(user_, duration));
-}
-
-plant::step plant::hold_or_slide(double duration, const hand_step& grip) const noexcept {
   return direction_ == 0 ? stay(duration, grip) : slide(duration, grip);
 }
 
@@ -188,17 +137,6 @@ void plant::add_sliding_work(const stages& s, const hand_step& grip, step& done)
   }
 }
 
-// The shortest time, to a billionth of `duration`, after which the step is no longer consistent.
-double plant::first_event(double duration) const noexcept {
-  double before = 0;
-  double after = duration;
-  while (after - before > 1e-9 * duration) {
-    const double middle = (before + after) / 2;
-    (is_consistent(attempt(middle)) ? before : after) = middle;
-  }
-  return after;
-}
-
 // Whether the step has ended in the same state of sticking, sliding and touching as it began in.
 bool plant::is_consistent(const step& candidate) const noexcept {
   const shaft_motion& end = candidate.shaft;
@@ -242,29 +180,12 @@ bool plant::can_hold(double position, double force) const noexcept {
          (high_.is_reached(position) && high_.holds_against(force));
 }
 
-motion_point plant::intended(double time) const noexcept {
-  if (!intended_) return {};
-  const motion_point tool = intended_(time);
-  return {tool.position / ratio_, tool.velocity / ratio_};
-}
-
-double plant::stop_force(double position, double velocity) const noexcept {
-  return low_.force(position, velocity) + high_.force(position, velocity);
-}
-
 double plant::force_at_rest(const shaft_motion& shaft, const hand_state& grip, double torque) const noexcept {
   return torque + force_of(user_, grip, intended(shaft.time), 0) - stop_force(shaft.position, 0);
 }
 
 plant_view plant::view() const noexcept {
-  plant_view seen;
-  seen.time = shaft_.time;
-  seen.position = shaft_.position;
-  seen.velocity = shaft_.velocity;
-  seen.tool_position = shaft_.position;
-  seen.tool_velocity = shaft_.velocity;
-  seen.motor_torque = drives_.torque();
-  seen.brake_damping = drives_.at_speed(drives_.damping(), shaft_.velocity);
+  plant_view seen = view_of_shaft();
   seen.stop_torque = stop_force(shaft_.position, shaft_.velocity);
   seen.stuck = !prescribed_ && direction_ == 0;
   const double grip = prescribed_ ? 0 : force_of(user_, grip_, intended(shaft_.time), shaft_.velocity);
@@ -274,15 +195,6 @@ plant_view plant::view() const noexcept {
   seen.friction_torque = seen.stuck ? driving : sliding;
   seen.hand_torque = prescribed_ ? 0 : grip - user_.mass / inertia() * (driving - seen.friction_torque);
   return seen;
-}
-
-plant_view plant::view_under(const actuation& demand) const noexcept {
-  drives next = drives_;
-  next.demand(demand);
-  plant_view now = view();
-  now.motor_torque = next.torque();
-  now.brake_damping = next.at_speed(next.damping_after(0), shaft_.velocity);
-  return now;
 }
 
 }  // namespace dashpot::simulated

@@ -8,24 +8,20 @@
 // backlash or stops ends a step at the instant it happens.
 #pragma once
 
-#include <dashpot/simulated/plant.hpp>
+#include <dashpot/simulated/stepped_plant.hpp>
 
 namespace dashpot::simulated {
 
-class compliant_plant {
+class compliant_plant : public stepped_plant<compliant_plant> {
  public:
   // Requires a mode with 0 < mass < inertia, no rigid end-stop and no prescribed motion.
   compliant_plant(const device_description& device, const scenario& scene);
 
-  // As of plant.
-  void advance(double duration, double end, const actuation& demand, shaft_sensors& sensors) noexcept;
-  void disturb(double torque) noexcept { drives_.disturb(torque); }
-  shaft_motion shaft() const noexcept { return shaft_; }
-  const energy_ledger& ledger() const noexcept { return ledger_; }
   plant_view view() const noexcept;
-  plant_view view_under(const actuation& demand) const noexcept;
 
  private:
+  friend stepped_plant;
+
   // A step that may yet be refused, because an event lies within it.
   struct step {
     double duration = 0;  // [s]
@@ -48,53 +44,33 @@ class compliant_plant {
     double right[4] = {};      // [N·m] or [N]
   };
 
-  void integrate_evenly(double duration, shaft_sensors& sensors) noexcept;
-  void integrate(double duration, shaft_sensors& sensors) noexcept;
   void commit(const step& done, shaft_sensors& sensors) noexcept;
-
-  step attempt(double duration) const noexcept;
   step attempt(double duration, const hand_step& grip) const noexcept;
   stage_equations equations(const stages& s, const hand_step& grip, double duration) const noexcept;
   void couple(stage_equations& e, double duration) const noexcept;
   void balance(stages& s, const stage_equations& without_brake) const noexcept;
   void add_work(const stages& s, const hand_step& grip, step& done) const noexcept;
 
-  double first_event(double duration) const noexcept;
   bool is_consistent(const step& candidate) const noexcept;
   void settle() noexcept;
+  void settle_under_demand() noexcept { settle(); }
   int would_engage(const shaft_motion& shaft, const shaft_motion& tool) const noexcept;
   double structure_force(const shaft_motion& shaft, const shaft_motion& tool) const noexcept;
-  double stop_force(double position, double velocity) const noexcept;
 
   bool is_engaged() const noexcept { return half_backlash_ == 0 || side_ != 0; }
   double stiffness() const noexcept { return is_engaged() ? stiffness_ : 0; }
   double structure_damping() const noexcept { return is_engaged() ? structure_damping_ : 0; }
   double offset() const noexcept { return side_ * half_backlash_; }
   double kinetic() const noexcept;
-  motion_point intended(double time) const noexcept;
 
-  mechanics_description mechanics_;
-  drives drives_;
-  double ratio_;         // tool motion over joint motion
-  hand user_;            // in the joint's coordinate
-  trajectory intended_;  // in the tool's
-  stop_contact low_;
-  stop_contact high_;
-  double longest_step_;       // [s]
   double shaft_inertia_;      // J − m
   double stiffness_;          // k [N·m/rad] or [N/m]
   double structure_damping_;  // c_m [N·m·s/rad] or [N·s/m]
   double half_backlash_;      // g/2 [rad] or [m]
 
-  shaft_motion shaft_;
   shaft_motion tool_;
-  hand_state grip_;
-  hand_step usual_grip_;  // for the step length in use
-  double direction_ = 0;  // of sliding: +1 or −1; 0: stuck, or without friction
   bool stuck_ = false;
   int side_ = 0;  // on which backlash is taken up: +1 where the tool is ahead; 0: neither, or no backlash
-  double kinetic_at_start_;
-  energy_ledger ledger_;
 };
 
 }  // namespace dashpot::simulated

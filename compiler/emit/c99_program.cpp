@@ -12,7 +12,7 @@
 #include "emit/c99_parts.hpp"
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_program.hpp"
-#include "emit/cpp_slips.hpp"
+#include "emit/slip_tables.hpp"
 #include "law/expression_text.hpp"
 #include "law/walk.hpp"
 #include "lower/fuse_step.hpp"
@@ -232,10 +232,8 @@ class C99Printer {
     append_all(lines, c99_part("numbers.h", words));
     if (!law_.couplings.empty()) append_all(lines, c99_part("slip_tree.h", words));
     if (!law_.networks.empty()) append_all(lines, c99_part("slip_network.h", words));
-    for (const Coupling& coupling : law_.couplings)
-      if (coupling.tuned.empty()) append_table(coupling, lines);
-    for (const SlipNetwork& network : law_.networks)
-      if (!network.tuned) append_tables(network, lines);
+    for (const Coupling& coupling : law_.couplings) append_tables_if(!is_tuned(coupling), coupling, lines);
+    for (const SlipNetwork& network : law_.networks) append_tables_if(!is_tuned(network), network, lines);
     if (law_.tunable) append_ranges(lines);
     return lines;
   }
@@ -250,56 +248,23 @@ class C99Printer {
     append_all(lines, {"};", ""});
   }
 
-  // What parameters change is made up for each step.
-  static const char* storage(bool is_constant) { return is_constant ? "static const" : "const"; }
-
   std::string number_or(double value, VariableId tuned) const {
     return tuned == no_variable ? number(value) : name(tuned, 0);
   }
 
-  void append_table(const Coupling& coupling, Lines& lines) const {
-    lines.push_back("// kind, children, slips, place, first corner, stiffness, compliance, yield force");
-    lines.push_back(fmt::format("{0} {1}_node {1}_{2}[{3}] = {{", storage(coupling.tuned.empty()), name_, coupling.name,
-                                coupling.nodes.size()));
-    for (std::size_t k = 0; k < coupling.nodes.size(); ++k) {
-      const slip_node<double>& node = coupling.nodes[k];
-      const TunedNode tuned = coupling.tuned.empty() ? TunedNode{} : coupling.tuned[k];
-      append(lines, fmt::format("    {{{}_{}, {}, {}, {}, {}, {}, {}, {}, {}}},", name_, part_name(node.kind),
-                                node.first_child, node.child_count, node.slips, node.place, node.first_corner,
-                                number_or(node.stiffness, tuned.stiffness),
-                                number_or(node.compliance, tuned.compliance), number_or(node.yield, tuned.yield)));
-    }
-    lines.push_back("};");
-    if (coupling.tuned.empty()) lines.push_back("");
-  }
-
-  void append_tables(const SlipNetwork& network, Lines& lines) const {
-    const std::string owner = name_ + "_" + network.name;
-    const TunedNetwork tuned = network.tuned.value_or(TunedNetwork{});
-    const auto at = [](const std::vector<VariableId>& all, std::size_t i) {
-      return all.empty() ? no_variable : all[i];
-    };
-    const char* const kind = storage(!network.tuned);
-    lines.push_back("// ends, lowest and highest force of each slip; inner ends come first, then tool and ground");
-    lines.push_back(fmt::format("{} {}_link {}_links[{}] = {{", kind, name_, owner, network.slip_count()));
-    for (std::size_t k = 0; k < network.links.size(); ++k) {
-      const slip_link<double>& link = network.links[k];
-      const VariableId yield = at(tuned.yields, k);
-      const std::string lowest = yield == no_variable ? number(link.lowest) : "-" + name(yield, 0);
-      lines.push_back(fmt::format("    {{{}, {}, {}, {}}},", link.a, link.b, lowest, number_or(link.highest, yield)));
-    }
-    lines.push_back("};");
-    lines.push_back(
-        "// stiffness over one sample between inner ends, to the tool and to the ground [N/m] or [N·m/rad]");
-    for (const auto& [what, values, variables] : {std::tuple("between", &network.between, &tuned.between),
-                                                  std::tuple("to_tool", &network.to_tool, &tuned.to_tool),
-                                                  std::tuple("to_ground", &network.to_ground, &tuned.to_ground)}) {
-      std::string table = fmt::format("{} {} {}_{}[{}] = {{", kind, scalar(), owner, what, values->size());
-      for (std::size_t i = 0; i < values->size(); ++i)
-        table += (i == 0 ? "" : ", ") + number_or((*values)[i], at(*variables, i));
-      append(lines, table + "};");
-    }
-    if (!network.tuned) lines.push_back("");
+  // What parameters change is made up for each step.
+  template <class Slips>
+  void append_tables_if(bool is_wanted, const Slips& slips, Lines& lines) const {
+    if (!is_wanted) return;
+    const TableWords words = {is_tuned(slips) ? "const " : "static const ",
+                              std::string(scalar()),
+                              name_ + "_node",
+                              name_ + "_link",
+                              name_ + "_",
+                              [this](const std::string& table) { return name_ + "_" + table; },
+                              [this](double value, VariableId tuned) { return number_or(value, tuned); }};
+    append_tables(slips, words, lines);
+    if (!is_tuned(slips)) lines.push_back("");
   }
 
   std::string held_forces(const std::vector<VariableId>& held) const {
@@ -309,7 +274,7 @@ class C99Printer {
   }
 
   void print_step(const Statement& statement, const Coupling& coupling, Lines& lines) {
-    if (!coupling.tuned.empty()) append_table(coupling, lines);
+    append_tables_if(is_tuned(coupling), coupling, lines);
     const std::string& own = coupling.name;
     append(lines, fmt::format("const {} {}_held[{}] = {{{}}};", scalar(), own, coupling.held.size(),
                               held_forces(coupling.held)));
@@ -334,7 +299,7 @@ class C99Printer {
   }
 
   void print_step(const Statement& statement, const SlipNetwork& network, Lines& lines) {
-    if (network.tuned) append_tables(network, lines);
+    append_tables_if(is_tuned(network), network, lines);
     const std::string& own = network.name;
     std::string sign;
     for (VariableId id : network.last_sign) sign += (sign.empty() ? "(int)" : ", (int)") + name(id, 0);

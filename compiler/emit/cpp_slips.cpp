@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <functional>
-#include <tuple>
+#include <utility>
 
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_program.hpp"
 #include "emit/cpp_statements.hpp"
+#include "emit/slip_tables.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -16,81 +16,29 @@ std::string literal(const UpdateLaw& law, double value) { return cpp_literal(val
 
 std::string name_of(const UpdateLaw& law, VariableId id) { return CppStatements::scalar_name(law.variables[id]); }
 
-// Where a table stands, and how its numbers are written.
-struct TableForm {
-  const char* storage;  // before its type
-  const char* suffix;   // of its name
-  std::function<std::string(double value, VariableId tuned)> number;
-};
-
-TableForm form_of_constants(const UpdateLaw& law) {
-  return {"static constexpr ", "", [&law](double value, VariableId) { return literal(law, value); }};
+TableWords words_for_tables(std::string storage, std::string suffix,
+                            std::function<std::string(double value, VariableId tuned)> number) {
+  return {std::move(storage),
+          "scalar",
+          "dashpot::slip_node<scalar>",
+          "dashpot::slip_link<scalar>",
+          "dashpot::slip_part::",
+          [suffix](const std::string& table) { return table + suffix; },
+          std::move(number)};
 }
 
-// As a new object has them; set() tells others.
-TableForm form_of_kept(const UpdateLaw& law) {
-  return {"", "_", [&law](double value, VariableId tuned) {
-            return literal(law, tuned == no_variable ? value : law.variables[tuned].rest_value);
-          }};
+// Made up for the step.
+TableWords words_for_local_tables(const UpdateLaw& law, const SolverWords& words) {
+  return words_for_tables("const ", "", [&](double value, VariableId tuned) {
+    return tuned == no_variable ? literal(law, value) : words.read(tuned);
+  });
 }
 
-TableForm form_of_local(const UpdateLaw& law, const SolverWords& words) {
-  return {"const ", "", [&law, &words](double value, VariableId tuned) {
-            return tuned == no_variable ? literal(law, value) : words.read(tuned);
-          }};
-}
-
-bool is_tuned(const Coupling& coupling) { return !coupling.tuned.empty(); }
-bool is_tuned(const SlipNetwork& network) { return network.tuned.has_value(); }
-
-void append_table(const Coupling& coupling, const TableForm& form, std::vector<std::string>& lines) {
-  lines.push_back("// kind, children, slips, place, first corner, stiffness, compliance, yield force");
-  lines.push_back(fmt::format("{}dashpot::slip_node<scalar> {}{}[{}] = {{", form.storage, coupling.name, form.suffix,
-                              coupling.nodes.size()));
-  for (std::size_t k = 0; k < coupling.nodes.size(); ++k) {
-    const slip_node<double>& node = coupling.nodes[k];
-    const TunedNode tuned = is_tuned(coupling) ? coupling.tuned[k] : TunedNode{};
-    append(lines, fmt::format("    {{dashpot::slip_part::{}, {}, {}, {}, {}, {}, {}, {}, {}}},", part_name(node.kind),
-                              node.first_child, node.child_count, node.slips, node.place, node.first_corner,
-                              form.number(node.stiffness, tuned.stiffness),
-                              form.number(node.compliance, tuned.compliance), form.number(node.yield, tuned.yield)));
-  }
-  lines.push_back("};");
-}
-
-void append_tables(const SlipNetwork& network, const TableForm& form, std::vector<std::string>& lines) {
-  const TunedNetwork tuned = network.tuned.value_or(TunedNetwork{});
-  const auto at = [&](const std::vector<VariableId>& all, std::size_t i) {
-    return is_tuned(network) ? all[i] : no_variable;
-  };
-  lines.push_back("// ends, lowest and highest force of each slip; inner ends come first, then tool and ground");
-  lines.push_back(fmt::format("{}dashpot::slip_link<scalar> {}_links{}[{}] = {{", form.storage, network.name,
-                              form.suffix, network.slip_count()));
-  for (std::size_t k = 0; k < network.links.size(); ++k) {
-    const slip_link<double>& link = network.links[k];
-    const VariableId yield = at(tuned.yields, k);
-    const std::string highest = form.number(link.highest, yield);
-    const std::string lowest = yield == no_variable ? form.number(link.lowest, yield) : "-" + highest;
-    lines.push_back(fmt::format("    {{{}, {}, {}, {}}},", link.a, link.b, lowest, highest));
-  }
-  lines.push_back("};");
-  lines.push_back("// stiffness over one sample between inner ends, to the tool and to the ground [N/m] or [N·m/rad]");
-  for (const auto& [what, values, variables] : {std::tuple("between", &network.between, &tuned.between),
-                                                std::tuple("to_tool", &network.to_tool, &tuned.to_tool),
-                                                std::tuple("to_ground", &network.to_ground, &tuned.to_ground)}) {
-    std::string table =
-        fmt::format("{}scalar {}_{}{}[{}] = {{", form.storage, network.name, what, form.suffix, values->size());
-    for (std::size_t i = 0; i < values->size(); ++i)
-      table += (i == 0 ? "" : ", ") + form.number((*values)[i], at(*variables, i));
-    append(lines, table + "};");
-  }
-}
-
-void append_all_tables(const UpdateLaw& law, const TableForm& form, bool tuned, std::vector<std::string>& lines) {
+void append_all_tables(const UpdateLaw& law, const TableWords& words, bool tuned, std::vector<std::string>& lines) {
   for (const Coupling& coupling : law.couplings)
-    if (is_tuned(coupling) == tuned) append_table(coupling, form, lines);
+    if (is_tuned(coupling) == tuned) append_tables(coupling, words, lines);
   for (const SlipNetwork& network : law.networks)
-    if (is_tuned(network) == tuned) append_tables(network, form, lines);
+    if (is_tuned(network) == tuned) append_tables(network, words, lines);
 }
 
 // What the solver's table is called where it is used.
@@ -108,7 +56,7 @@ std::string held_forces(const std::vector<VariableId>& held, const SolverWords& 
 void append_step(const UpdateLaw& law, VariableId target, const Coupling& coupling, const SolverWords& words,
                  std::vector<std::string>& lines) {
   const std::string& name = coupling.name;
-  if (is_tuned(coupling) && words.makes_tables) append_table(coupling, form_of_local(law, words), lines);
+  if (is_tuned(coupling) && words.makes_tables) append_tables(coupling, words_for_local_tables(law, words), lines);
   append(lines, fmt::format("const scalar {}_held[{}] = {{{}}};", name, coupling.held.size(),
                             held_forces(coupling.held, words)));
   lines.push_back(fmt::format("scalar {}_elongation[{}] = {{}};", name, coupling.elongation.size()));
@@ -135,7 +83,7 @@ void append_step(const UpdateLaw& law, VariableId target, const Coupling& coupli
 void append_step(const UpdateLaw& law, VariableId target, const SlipNetwork& network, const SolverWords& words,
                  std::vector<std::string>& lines) {
   const std::string& name = network.name;
-  if (is_tuned(network) && words.makes_tables) append_tables(network, form_of_local(law, words), lines);
+  if (is_tuned(network) && words.makes_tables) append_tables(network, words_for_local_tables(law, words), lines);
   std::string sign;
   for (VariableId id : network.last_sign)
     sign += (sign.empty() ? "" : ", ") + fmt::format("static_cast<int>({})", words.read(id));
@@ -161,22 +109,17 @@ void append_step(const UpdateLaw& law, VariableId target, const SlipNetwork& net
 
 }  // namespace
 
-const char* part_name(slip_part kind) {
-  switch (kind) {
-    case slip_part::block: return "block";
-    case slip_part::slip: return "slip";
-    case slip_part::series: return "series";
-    case slip_part::parallel: return "parallel";
-  }
-  return "";
-}
-
 void append_constant_tables(const UpdateLaw& law, std::vector<std::string>& lines) {
-  append_all_tables(law, form_of_constants(law), false, lines);
+  const auto number = [&](double value, VariableId) { return literal(law, value); };
+  append_all_tables(law, words_for_tables("static constexpr ", "", number), false, lines);
 }
 
 void append_kept_tables(const UpdateLaw& law, std::vector<std::string>& lines) {
-  append_all_tables(law, form_of_kept(law), true, lines);
+  // As a new object has them; set() tells others.
+  const auto number = [&](double value, VariableId tuned) {
+    return literal(law, tuned == no_variable ? value : law.variables[tuned].rest_value);
+  };
+  append_all_tables(law, words_for_tables("", "_", number), true, lines);
 }
 
 void append_tuning(const UpdateLaw& law, std::vector<std::string>& lines) {

@@ -10,8 +10,6 @@
 
 namespace dashpot::compiler {
 
-const char* part_name(slip_part kind);  // the enumerator's
-
 // How the code around a solver calls the numbers that go in and come out.
 struct SolverWords {
   std::function<std::string(VariableId)> read;

@@ -1,0 +1,27 @@
+// The tables that the solvers of slips read, alike in C++ and C but for how the language writes things.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+struct TableWords {
+  std::string storage;                                                // before the type, with a space behind
+  std::string scalar, node, link;                                     // types
+  std::string part;                                                   // before the name of a kind of part
+  std::function<std::string(const std::string& table)> name;          // of what the law calls so
+  std::function<std::string(double value, VariableId tuned)> number;  // `tuned`: where parameters decide, by which
+};
+
+// Whether parameters decide what stands in the tables.
+bool is_tuned(const Coupling& coupling);
+bool is_tuned(const SlipNetwork& network);
+
+void append_tables(const Coupling& coupling, const TableWords& words, std::vector<std::string>& lines);
+void append_tables(const SlipNetwork& network, const TableWords& words, std::vector<std::string>& lines);
+
+}  // namespace dashpot::compiler

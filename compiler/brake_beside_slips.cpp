@@ -37,6 +37,7 @@ class BesideSearch {
         present_(at_default(c.network)),
         settler_(present_, c.form, c.decomposition, choices, device, c.rate),
         choices_(choices),
+        device_(device),
         before_(runs.chosen_beside()) {
     const double feedthrough = to_double(c.form.linear.feedthrough_damping);
     most_ = device.max_damping().value_or(0);
@@ -80,7 +81,7 @@ class BesideSearch {
     SlipOption run = runs_.run(place.beside, line.plan);
     const Certificate& certificate = run.made.certificate;
     const bool is_proved = certificate.bound.proof != Proof::none;
-    place.added = certificate.added_damping;
+    place.added = device_.behind_curve(certificate.added_damping);
     place.felt = std::move(run.felt);
     place.option = {run.merit.mean_damping, std::max(run.merit.error(), band_error(line, damping, place.added)),
                     is_proved ? std::optional(run.merit.minimum_damping) : std::nullopt, run.merit.certified,
@@ -162,6 +163,7 @@ class BesideSearch {
   Network present_;
   CandidateSettler settler_;
   const Choices& choices_;
+  const PortDevice& device_;
   Candidate before_;
   double most_ = 0;
   std::vector<Line> lines_;

@@ -36,7 +36,8 @@ bool is_compared(const Candidate& candidate) {
 }
 
 // How `faithful` moves over what the device file assumes; `gap` of jitter at what was chosen.
-std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present, const Choices& choices, double gap) {
+std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present, const SlipDecomposer& behind_slips,
+                                    const Choices& choices, double gap) {
   const Candidate& choice = c.decomposition.choice();
   ChoiceMoves moves{choice.damping, choice.damping, ""};
   double furthest = 1e-6 * choice.damping;
@@ -48,7 +49,7 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
     settler.assume_jitter_gap(gap);
     settler.settle(candidate);
     if (has_tunables(c.network)) choose_over_box(c.network, c.form, again.decomposition, choices, port, c.rate);
-    return c.form.has_slips() ? damping_on_another_device(again, choices, port) : candidate.damping;
+    return c.form.has_slips() ? damping_on_another_device(again, behind_slips, choices, port) : candidate.damping;
   };
   const std::vector<VariedDevice> devices = with_assumed_varied(*c.device);
   for (const VariedDevice& varied : devices) {
@@ -98,18 +99,15 @@ Beside what_is_beside_slips(const NormalForm& form) {
   return form.is_all_behind_slips() ? Beside::nothing : Beside::linear;
 }
 
-// What the certificate has added to the brake, as it is felt at the tool.
-double added_at_tool(const Compilation& c) {
-  const double steepest = c.port.steepest();
-  return c.certificate.added_damping / (steepest * steepest);
-}
+// What the certificate has added to the brake.
+double added_behind_curve(const Compilation& c) { return c.port.behind_curve(c.certificate.added_damping); }
 
 // The error of the law as it is.
 void tell_what_is_felt(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
   if (device.is_ideal()) return;
   Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
   CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
-  choice.largest_error = settler.largest_error(choice, added_at_tool(c));
+  choice.largest_error = settler.largest_error(choice, added_behind_curve(c));
   if (choices.compared == Compared::nothing) return;
   c.decomposition.in_words = choice_in_words(
       c.decomposition, {port_units(c.network.port_motion), device.max_damping().value_or(0), device.steepest(),
@@ -173,7 +171,8 @@ void certify_law(Compilation& c, const Choices& choices) {
   const std::optional<SlipMotor> slips = slip_motor(c.network, c.form, c.decomposition, choices, loop);
   if (c.network.map) {
     c.certificate = certify_behind_curve(c.law, c.network, slips, c.port, 1 / c.rate);
-    c.law = behind_map(std::move(c.law), *c.network.map, c.certificate.added_damping, c.network.port_motion);
+    c.law = without_unread_locals(
+        behind_map(std::move(c.law), *c.network.map, c.certificate.added_damping, c.network.port_motion));
   } else {
     c.certificate = certify(c.law, loop, slips);
   }
@@ -208,9 +207,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
 std::optional<Compilation> compile(Network network, const Choices& asked, const std::optional<Device>& device,
                                    Diagnostics& diagnostics, StageTimes& times) {
   if (!network.ports.empty()) return compile_ports(std::move(network), asked, device, diagnostics);
-  const bool has_slips = std::any_of(network.elements.begin(), network.elements.end(),
-                                     [](const Element& element) { return std::holds_alternative<Slip>(element.law); });
-  Choices choices = with_names(asked, device || has_slips);
+  Choices choices = with_names(asked, device || has_slips(network));
   if (!settle_tunables(network, choices, diagnostics)) return std::nullopt;
   Network present = at_default(network);
   if (!is_within_reach(present, diagnostics)) return std::nullopt;
@@ -228,19 +225,19 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   result.port = std::move(*port);
   if (device && result.network.contact) warn_of_surface(*result.network.contact, result, diagnostics);
   times.enter("decomposition");
-  const Device* const on = device ? &*device : nullptr;
   const bool is_tunable = has_tunables(result.network);
+  const SlipDecomposer behind_slips(present, result.form, result.port.reference_frequency());
   std::optional<Decomposition> decomposition =
-      decompose(is_tunable ? present : result.network, result.form, choices, on, diagnostics);
+      decompose(present, result.form, behind_slips, choices, result.port, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
   const double gap = settle_choice(result, present, choices, result.port);
   // With tunable parameters nothing has to be run, but `faithful` leaves the slips another share of the brake.
   const bool slips_are_as_split = is_tunable && result.decomposition.choice().name != "faithful";
-  if (result.form.has_slips() && !slips_are_as_split) choose_slip_law(result, choices, result.port);
+  if (result.form.has_slips() && !slips_are_as_split) choose_slip_law(result, behind_slips, choices, result.port);
   if (choices.compared != Compared::nothing) settle_compared(result, present, choices, result.port);
   if (result.decomposition.choice().faithful && choices.compared == Compared::variations)
-    result.decomposition.moves = moves_of(result, present, choices, gap);
+    result.decomposition.moves = moves_of(result, present, behind_slips, choices, gap);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
   times.enter("discretisation");
   warn_about_rate_and_scalar(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
@@ -275,7 +272,7 @@ void weigh_all_candidates(Compilation& c, const Choices& asked) {
     const bool is_made = i == c.decomposition.chosen && !c.port.is_ideal();
     if (!is_made) settler.settle(candidate);
     CandidateSettler::ErrorOverBand errors =
-        settler.error_over_band(candidate, is_made ? std::optional(added_at_tool(c)) : std::nullopt);
+        settler.error_over_band(candidate, is_made ? std::optional(added_behind_curve(c)) : std::nullopt);
     candidate.error_over_band = std::move(errors.errors);
     if (!errors.frequencies.empty()) c.decomposition.error_frequencies = std::move(errors.frequencies);
   }

@@ -42,10 +42,7 @@ std::optional<axes::BrakeRule> brake_rule(const Choices& choices, Diagnostics& d
 // Of each port on its own, driven by the position. `faithful`, and what is chosen behind slips and contacts without it,
 // leaves the states of the port to positions alone.
 Choices choices_of_port(const Port& port, const Choices& asked, double rate) {
-  const std::vector<Element>& elements = port.network.elements;
-  const bool has_slips = std::any_of(elements.begin(), elements.end(),
-                                     [](const Element& e) { return std::holds_alternative<Slip>(e.law); });
-  const bool is_chosen_by_itself = port.network.contact || has_slips;
+  const bool is_chosen_by_itself = port.network.contact || has_slips(port.network);
   Choices choices = asked;
   choices.decomposition = is_named(asked, faithful_rule) && !is_chosen_by_itself ? "velocity-free" : "";
   choices.state_input = StateInput::position;

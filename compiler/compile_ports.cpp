@@ -289,20 +289,19 @@ std::optional<Compilation> compile_ports(Network network, const Choices& asked, 
   c.port = std::move(*whole);
   c.device = device;
   c.rate = asked.rate.value_or(device ? 1 / device->description.loop.sample_period : default_rate);
-  std::optional<std::vector<Compilation>> ports = ports_on(network, asked, device, diagnostics);
+  // One rule for all, with slips in some of them or not.
+  const Choices choices =
+      with_names(asked, device || std::any_of(network.ports.begin(), network.ports.end(), has_slips));
+  std::optional<std::vector<Compilation>> ports = ports_on(network, choices, device, diagnostics);
   if (!ports) return std::nullopt;
   std::vector<ParallelPort> laws;
-  bool has_slips = false;
-  for (const Compilation& port : *ports) {
-    laws.push_back({port.network.name, port.law, clamp_of(port)});
-    has_slips |= port.form.has_slips();
-  }
+  for (const Compilation& port : *ports) laws.push_back({port.network.name, port.law, clamp_of(port)});
   const SampledLoop loop = sampled_loop(c.port, 1 / c.rate);
   PassivityBound bound = sum_of_bounds(*ports);
   const double added = added_for_all(*ports, bound, loop, asked.scalar);
   c.law = begun_at_rest(without_unread_locals(parallel_law(laws, added, network.port_motion)));
   c.certificate = certificate_of_all(*ports, std::move(bound), c.law, added, loop);
-  c.decomposition = choice_of_all(*ports, with_names(asked, device || has_slips), c.certificate);
+  c.decomposition = choice_of_all(*ports, choices, c.certificate);
   c.network = std::move(network);
   c.ports = std::move(*ports);
   if (!is_representable(c.law, c.network, diagnostics) || !class_differs_from_members(c.law, c.network, diagnostics))

@@ -7,7 +7,6 @@
 
 #include "brake_beside_slips.hpp"
 #include "certify/tunable_choice.hpp"
-#include "decompose/slip_laws.hpp"
 #include "network/port_units.hpp"
 #include "slip_runs.hpp"
 
@@ -137,8 +136,9 @@ bool is_lost_over_box(const Compilation& c, const Candidate& other, const Choice
 
 }  // namespace
 
-void choose_slip_law(Compilation& c, const Choices& choices, const PortDevice& device) {
-  SlipRuns runs(c, choices, device);
+void choose_slip_law(Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices,
+                     const PortDevice& device) {
+  SlipRuns runs(c, behind_slips, choices, device);
   Candidate beside = c.decomposition.choice();
   SlipDecomposition slips;
   if (const std::optional<SlipLaw> asked = slip_law_asked_for(choices)) {
@@ -160,7 +160,8 @@ void choose_slip_law(Compilation& c, const Choices& choices, const PortDevice& d
   c.decomposition.slips = std::move(slips);
 }
 
-double damping_on_another_device(const Compilation& c, const Choices& choices, const PortDevice& device) {
+double damping_on_another_device(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices,
+                                 const PortDevice& device) {
   Compilation one = c;
   Candidate& beside = one.decomposition.candidates[one.decomposition.chosen];
   if (!beside.faithful) return beside.damping;
@@ -169,7 +170,7 @@ double damping_on_another_device(const Compilation& c, const Choices& choices, c
   SlipLaw law = SlipLaw::velocity_free;
   for (const ComponentSplit* split : c.decomposition.slips.all())
     if (split->law != law) law = split->law;
-  SlipRuns runs(one, choices, device);
+  SlipRuns runs(one, behind_slips, choices, device);
   runs.keep_to(law);
   if (is_within(runs.run(beside, runs.plan(law)).merit.error(), choices.tolerance)) return beside.damping;
   return choose_beside_slips(one, choices, device, runs).damping;

@@ -5,10 +5,11 @@
 #include <limits>
 
 #include "certify/certificate.hpp"
+#include "certify/curve_bound.hpp"
 #include "certify/estimator_factors.hpp"
 #include "certify/proved_bound.hpp"
-#include "decompose/slip_laws.hpp"
 #include "discretise/discretise.hpp"
+#include "lower/behind_map.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -17,11 +18,13 @@ constexpr double gap_spread = 1 + 1e-3;  // by which the gap at another damping 
 
 }  // namespace
 
-SlipRuns::SlipRuns(const Compilation& c, const Choices& choices, const PortDevice& device)
+SlipRuns::SlipRuns(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices,
+                   const PortDevice& device)
     : c_(c),
       choices_(choices),
       device_(device),
-      decomposer_(c.network, c.form, device),
+      at_tool_(device.at_tool()),
+      behind_slips_(behind_slips),
       loop_(sampled_loop(device, 1 / c.rate)),
       gain_(estimate_gain(loop_).value_or(std::numeric_limits<double>::infinity())) {
   for (const SlipLaw law : laws_to_choose_from) {
@@ -34,7 +37,7 @@ SlipRuns::SlipRuns(const Compilation& c, const Choices& choices, const PortDevic
 }
 
 SlipDecomposition SlipRuns::decomposed(const Candidate& beside, const SlipPlan& plan) const {
-  return decomposer_.decomposed(beside, plan);
+  return behind_slips_.decomposed(beside, plan, device_);
 }
 
 Compilation SlipRuns::made_with_room(const Candidate& beside, const SlipPlan& plan) {
@@ -45,7 +48,7 @@ Compilation SlipRuns::made_with_room(const Candidate& beside, const SlipPlan& pl
   Compilation made;
   // What passivity adds falls with what the motor takes back, but for what the sums round.
   for (int attempt = 0; attempt < 4 && last->bound.proof != Proof::none; ++attempt) {
-    roomy.reserve = std::max(roomy.reserve, last->minimum_damping) * (1 + 1e-9);
+    roomy.reserve = std::max(roomy.reserve, device_.behind_curve(last->minimum_damping)) * (1 + 1e-9);
     made = made_by(beside, roomy);
     if (made.certificate.certified) return made;
     last = &made.certificate;
@@ -56,8 +59,8 @@ Compilation SlipRuns::made_with_room(const Candidate& beside, const SlipPlan& pl
 std::vector<FeltForce> SlipRuns::felt_of(const UpdateLaw& law) {
   if (!trial_) {
     coarse_ = by_motor(1);
-    fine_ = by_motor(SlipTrial::instants_a_sample(device_));
-    trial_.emplace(c_.network, coarse_, fine_, device_, c_.network.surface());
+    fine_ = behind_curve(by_motor(SlipTrial::instants_a_sample(device_)), 0);
+    trial_.emplace(c_.network, coarse_, fine_, at_tool_);
   }
   std::vector<FeltForce> felt;
   for (std::size_t m = 0; m < trial_->motions().size(); ++m) felt.push_back(trial_->felt(law, m));
@@ -98,14 +101,24 @@ UpdateLaw SlipRuns::by_motor(int times) const {
   return discretise(c_.network, c_.form, whole, choices_, c_.rate * times);
 }
 
+UpdateLaw SlipRuns::behind_curve(UpdateLaw law, double added_damping) const {
+  const std::optional<MotionMap>& map = c_.network.map;
+  return map ? behind_map(std::move(law), *map, added_damping, c_.network.port_motion) : law;
+}
+
 Compilation SlipRuns::made_by(const Candidate& beside, const SlipPlan& plan) {
   Compilation made = c_;
   made.decomposition.candidates[made.decomposition.chosen] = beside;
   made.decomposition.slips = decomposed(beside, plan);
   made.law = discretise(made.network, made.form, made.decomposition, choices_, made.rate);
   const auto slips = slip_motor(made.network, made.form, made.decomposition, choices_, loop_);
+  if (made.network.map) {
+    made.certificate = certify_behind_curve(made.law, made.network, slips, device_, made.law.sample_period);
+    made.law = behind_curve(std::move(made.law), made.certificate.added_damping);
+    return made;
+  }
   if (!slips || made.law.tunable) {
-    made.certificate = certify(made.law, loop_, slips);
+    made.certificate = certify_in_search(made.law, loop_, slips);
     return made;
   }
   auto gap = gaps_.find(beside.state_input);

@@ -25,7 +25,7 @@ struct SlipOption {
 class SlipRuns {
  public:
   // In: a network with slips and what is chosen for what reaches ground without one. All outlive this.
-  SlipRuns(const Compilation& c, const Choices& choices, const PortDevice& device);
+  SlipRuns(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices, const PortDevice& device);
 
   SlipPlan plan(SlipLaw law, double excess = 1) const { return {law, excess, gain_}; }
   // velocity_free first, then the others that some part can have.
@@ -47,13 +47,15 @@ class SlipRuns {
  private:
   std::vector<FeltForce> felt_of(const UpdateLaw& law);
   UpdateLaw by_motor(int times) const;
+  UpdateLaw behind_curve(UpdateLaw law, double added_damping) const;
   Compilation made_by(const Candidate& beside, const SlipPlan& plan);
   std::optional<double> noise_of(const SlipDecomposition& slips) const;
 
   const Compilation& c_;
   const Choices& choices_;
   const PortDevice& device_;
-  SlipDecomposer decomposer_;
+  PortDevice at_tool_;
+  const SlipDecomposer& behind_slips_;
   SampledLoop loop_;
   double gain_;
   std::vector<SlipLaw> laws_;

@@ -10,6 +10,7 @@
 #include <deque>
 #include <numbers>
 
+#include "certify/convex_search.hpp"
 #include "law/evaluate.hpp"
 #include "network/port_units.hpp"
 
@@ -252,45 +253,14 @@ FeltForce felt_on_device(const UpdateLaw& law, const SensedMotion& seen, const P
   return felt;
 }
 
-}  // namespace
-
-SlipTrial::SlipTrial(const Network& network, const UpdateLaw& coarse, const UpdateLaw& fine, const PortDevice& device,
-                     double at)
-    : device_(device), at_(at) {
-  const int instants = instants_a_sample(device);
-  const std::string unit = port_units(network.port_motion).position;
-  const double period = coarse.sample_period, slowest = 1.25 / (most_samples * period), highest = 0.25 / period;
-  const double low = std::clamp(device.band_low() / (2 * pi), slowest, highest),
-               high = std::clamp(device.band_high() / (2 * pi), slowest, highest);
-  const std::vector<double> frequencies = low < high ? std::vector{low, high} : std::vector{low};
-  for (const double frequency : frequencies) {
-    const double yield = displacement_at_yield(network, coarse, frequency);
-    for (const double share : around_yield) {
-      motions_.push_back(sine(at, share * yield, frequency, period, instants));
-      motions_.back().name = fmt::format("a sine of {:.3g} Hz and ±{:.3g} {}", frequency, share * yield, unit);
-    }
-  }
-  const double middle = std::sqrt(low * high);
-  const double way = around_yield[2] * displacement_at_yield(network, coarse, middle);
-  motions_.push_back(drag(at, way, middle, period, instants));
-  motions_.back().name =
-      fmt::format("a drag to and fro at {:.3g} {}/s over ±{:.3g} {}", 4 * way * middle, unit, way, unit);
-  for (const TrialMotion& motion : motions_) {
-    if (!device.is_ideal()) sensed_.push_back(sensed(motion, at, device, instants, period));
-    std::vector<double> force = whole_force(fine, motion.position, at);
-    const double largest = largest_size(force), rms = root_mean_square(force);
-    forces_.push_back({std::move(force), largest, rms});
-  }
-}
-
 // Where in a quarter of a sine the force first departs from what it is for a motion so small that all slips hold.
-double SlipTrial::displacement_at_yield(const Network& network, const UpdateLaw& coarse, double frequency) const {
-  const double period = coarse.sample_period;
+double displacement_at_yield(const Network& network, const UpdateLaw& coarse, double frequency) {
+  const double period = coarse.sample_period, surface = network.surface_behind_map();
   const int samples = int(std::max(16.0, 0.25 / (frequency * period)));
   const auto run = [&](double amplitude) {
     std::vector<double> positions;
-    for (int i = 1; i <= samples; ++i) positions.push_back(at_ + amplitude * std::sin(pi / 2 * i / samples));
-    return whole_force(coarse, positions, at_);
+    for (int i = 1; i <= samples; ++i) positions.push_back(surface + amplitude * std::sin(pi / 2 * i / samples));
+    return whole_force(coarse, positions, surface);
   };
   const double stuck = stuck_amplitude(network, 2 * pi * frequency);
   const std::vector<double> linear = run(stuck);
@@ -302,6 +272,45 @@ double SlipTrial::displacement_at_yield(const Network& network, const UpdateLaw&
         return stuck * factor * std::sin(pi / 2 * (i + 1) / samples);
   }
   return stuck;
+}
+
+// From where the network lies unloaded, how far the tool goes to displace it so far; of a static curve no further than
+// that is known.
+double way_of_tool(const Network& network, double displacement) {
+  if (!network.map) return displacement;
+  const auto is_before = [&](double way) { return network.map->value_at(way) < displacement; };
+  return is_before(network.map->reach) ? network.map->reach : boundary(is_before, 0, network.map->reach, 1e-9);
+}
+
+}  // namespace
+
+SlipTrial::SlipTrial(const Network& network, const UpdateLaw& coarse, const UpdateLaw& fine, const PortDevice& device)
+    : device_(device), at_(network.surface()) {
+  const int instants = instants_a_sample(device);
+  const std::string unit = port_units(network.port_motion).position;
+  const double period = coarse.sample_period, slowest = 1.25 / (most_samples * period), highest = 0.25 / period;
+  const double low = std::clamp(device.band_low() / (2 * pi), slowest, highest),
+               high = std::clamp(device.band_high() / (2 * pi), slowest, highest);
+  const std::vector<double> frequencies = low < high ? std::vector{low, high} : std::vector{low};
+  for (const double frequency : frequencies) {
+    const double yield = displacement_at_yield(network, coarse, frequency);
+    for (const double share : around_yield) {
+      const double way = way_of_tool(network, share * yield);
+      motions_.push_back(sine(at_, way, frequency, period, instants));
+      motions_.back().name = fmt::format("a sine of {:.3g} Hz and ±{:.3g} {}", frequency, way, unit);
+    }
+  }
+  const double middle = std::sqrt(low * high);
+  const double way = way_of_tool(network, around_yield[2] * displacement_at_yield(network, coarse, middle));
+  motions_.push_back(drag(at_, way, middle, period, instants));
+  motions_.back().name =
+      fmt::format("a drag to and fro at {:.3g} {}/s over ±{:.3g} {}", 4 * way * middle, unit, way, unit);
+  for (const TrialMotion& motion : motions_) {
+    if (!device.is_ideal()) sensed_.push_back(sensed(motion, at_, device, instants, period));
+    std::vector<double> force = whole_force(fine, motion.position, at_);
+    const double largest = largest_size(force), rms = root_mean_square(force);
+    forces_.push_back({std::move(force), largest, rms});
+  }
 }
 
 FeltForce SlipTrial::felt(const UpdateLaw& law, std::size_t motion) const {

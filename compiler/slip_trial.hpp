@@ -42,10 +42,9 @@ struct FeltForce {
 
 class SlipTrial {
  public:
-  // `coarse` and `fine`: laws in which the motor makes the whole force, at the rate of the law to be tried and at
-  // instants_a_sample() times that. `at`: of a contact, where the tool begins; else 0. All outlive this.
-  SlipTrial(const Network& network, const UpdateLaw& coarse, const UpdateLaw& fine, const PortDevice& device,
-            double at);
+  // In: laws in which the motor makes the whole force, `coarse` at the rate of the law to be tried and without a static
+  // curve, `fine` at instants_a_sample() times that and behind the curve; the device at the tool. All outlive this.
+  SlipTrial(const Network& network, const UpdateLaw& coarse, const UpdateLaw& fine, const PortDevice& device);
 
   static int instants_a_sample(const PortDevice& device) { return device.is_ideal() ? 1 : 4; }
 
@@ -60,8 +59,6 @@ class SlipTrial {
     std::vector<double> values;  // [N] or [N·m]
     double largest, rms;
   };
-
-  double displacement_at_yield(const Network& network, const UpdateLaw& coarse, double frequency) const;
 
   const PortDevice& device_;
   double at_;

@@ -335,10 +335,10 @@ void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
   law.largest_damping = box.largest_brake + added;
 }
 
-// `known`: the bound of a law without tunables, where it is.
-Certificate certified(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips,
-                      const std::optional<PassivityBound>& known) {
-  const std::optional<MotorConstants> motor = motor_constants(law);
+// The bound, what is added for it, and whether that is enough. `known`: the bound of a law without tunables, where it
+// is.
+Certificate decided(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips,
+                    const std::optional<PassivityBound>& known) {
   Certificate result;
   result.loop = loop;
   if (law.tunable) settle_box(law, loop, result);
@@ -349,9 +349,16 @@ Certificate certified(UpdateLaw& law, const SampledLoop& loop, const std::option
   const Rational assured = assured_damping(loop, surely_told(law));
   result.assured = assured.convert_to<double>();
   result.certified = result.bound.proof != Proof::none && assured >= Rational(result.bound.needed);
+  result.bound.any_regime = slips.has_value();
+  return result;
+}
+
+// What is told beside: of energy between samples, the encoder's steps and the motor's limits.
+void look_beyond_bound(Certificate& result, const UpdateLaw& law, const SampledLoop& loop,
+                       const std::optional<SlipMotor>& slips) {
+  const std::optional<MotorConstants> motor = motor_constants(law);
   if (motor) result.energy = check_energy_lemma(*motor);
   if (law.tunable) result.energy = check_energy_lemma_over_box(law);
-  result.bound.any_regime = slips.has_value();
   if (slips && !law.tunable)
     result.energy = check_energy_lemma_with_slips(linear_motor_constants(law), parts_behind_slips(law));
   if (motor) result.quantisation_gain = quantisation_gain(*motor, loop);
@@ -359,11 +366,11 @@ Certificate certified(UpdateLaw& law, const SampledLoop& loop, const std::option
     result.quantisation_gain = quantisation_gain(linear_motor_constants(law), *slips, loop);
   if (!motor) result.energy.rounding_share = rounding_of_step(law);
   const bool is_proved = result.bound.proof != Proof::none;
+  const Rational assured = assured_damping(loop, surely_told(law));
   result.limits =
       law.tunable ? motor_limits_over_box(loop, is_proved ? std::optional(result.bound.needed) : std::nullopt, assured)
                   : motor_limits(law, slips, loop, result.bound.needed, assured);
   if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
-  return result;
 }
 
 }  // namespace
@@ -376,15 +383,21 @@ Certificate beyond_numbers(const SampledLoop& loop) {
 }
 
 Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
+  Certificate result = certify_in_search(law, loop, slips);
+  if (has_finite_numbers(law)) look_beyond_bound(result, law, loop, slips);
+  return result;
+}
+
+Certificate certify_in_search(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
   if (!has_finite_numbers(law)) return beyond_numbers(loop);
-  return certified(law, loop, slips, std::nullopt);
+  return decided(law, loop, slips, std::nullopt);
 }
 
 Certificate weighed_by_gap(UpdateLaw& law, const SampledLoop& loop, const SlipMotor& slips, double gap) {
   if (!has_finite_numbers(law)) return beyond_numbers(loop);
   const MotorConstants linear = linear_motor_constants(law);
   const PassivityBound beside = bound_beside_slips_by_gap(linear, slips, loop, gap);
-  return certified(law, loop, slips, bound_with_slips(beside, linear, slips, loop));
+  return decided(law, loop, slips, bound_with_slips(beside, linear, slips, loop));
 }
 
 }  // namespace dashpot::compiler

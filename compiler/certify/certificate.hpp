@@ -84,6 +84,9 @@ double brake_command(const PassivityBound& bound, const SampledLoop& loop, doubl
 // s. Without one it is reported only.
 Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips);
 
+// The same for a search, without what is told beside: energy between samples, quantisation, limits of the motor.
+Certificate certify_in_search(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips);
+
 // Of a law with a number that is not finite, which is not emitted.
 Certificate beyond_numbers(const SampledLoop& loop);
 

@@ -84,7 +84,6 @@ bool MotorConstants::is_idle() const { return static_stiffness == 0 && velocity_
 
 MotorConstants linear_motor_constants(const UpdateLaw& law) {
   MotorConstants motor;
-  motor.brake = law.damping;
   motor.static_stiffness = value_of(law, ConstantRole::static_stiffness);
   motor.half_static_stiffness = value_of(law, ConstantRole::half_static_stiffness);
   motor.step_stiffness = value_of(law, ConstantRole::step_stiffness);

@@ -23,7 +23,6 @@ struct MotorMode {
 };
 
 struct MotorConstants {
-  double brake = 0;                  // what the brake is told, b and what passivity adds to it [N·s/m]
   double static_stiffness = 0;       // k0 [N/m]
   double half_static_stiffness = 0;  // [N/m]
   double step_stiffness = 0;         // s = Σ c_i [N/m]

@@ -28,7 +28,7 @@ PassivityBound under_jitter(PassivityBound bound, const MotorConstants& motor, c
 bool needs_jitter_gap(const SampledLoop& loop);
 double jitter_gap(const MotorConstants& motor, const SampledLoop& loop);
 // So many times what is necessary; of other loops passivity_bound(). Of what is beside slips, and of a law with slips,
-// what certify() does with it.
+// what certify_in_search() does with it.
 PassivityBound bound_by_gap(const MotorConstants& motor, const SampledLoop& loop, double gap,
                             std::size_t terms = most_terms);
 PassivityBound bound_beside_slips_by_gap(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop,

@@ -149,10 +149,8 @@ const FeltError& CandidateSettler::felt(StateInput input) {
 // What the emitted law adds: all that is lacking, or nothing.
 double CandidateSettler::added_in(const StateInputMerit& merit) const {
   if (!merit.minimum_damping || network_.contact) return 0;
-  return merit.is_within_brake ? *merit.minimum_damping / at_tool() : 0;
+  return merit.is_within_brake ? device_.behind_curve(*merit.minimum_damping) : 0;
 }
-
-double CandidateSettler::at_tool() const { return device_.steepest() * device_.steepest(); }
 
 double CandidateSettler::largest_error(const Candidate& candidate, double added) {
   return felt(candidate.state_input).largest(candidate.damping, added);
@@ -183,7 +181,6 @@ std::optional<MotorConstants> CandidateSettler::motor_at(StateInput input, doubl
   std::optional<MotorConstants> motor = without_brake(input);
   if (!motor) return motor;
   motor->velocity_gain -= rounded(Real(damping), choices_.scalar);
-  motor->brake = damping;
   return motor;
 }
 
@@ -242,7 +239,7 @@ void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
   const double least_brake = candidate.damping + (slips_ ? slips_->least_brake : 0);
   merit.is_within_brake = false;
   if (needed.proof != Proof::none) {
-    merit.minimum_damping = missing_damping(needed, loop_, least_brake) * at_tool();
+    merit.minimum_damping = missing_damping(needed, loop_, least_brake) / device_.behind_curve(1);
     merit.is_within_brake = is_within_brake(candidate.damping, needed);
   }
   if (!device_.is_ideal()) merit.largest_error = felt(merit.state_input).largest(candidate.damping, added_in(merit));

@@ -47,7 +47,6 @@ class CandidateSettler {
   void settle_named(Candidate& candidate);
   const FeltError& felt(StateInput input);
   double added_in(const StateInputMerit& merit) const;
-  double at_tool() const;  // what a damping behind a static curve is there, where the curve is steepest; else 1
   bool is_within_brake(double damping, PassivityBound needed) const;
   SearchReach reach() const;
   const std::optional<MotorConstants>& without_brake(StateInput input);

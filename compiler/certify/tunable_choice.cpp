@@ -42,16 +42,14 @@ class BoxChoice {
     if (!law) return std::nullopt;
     const SampledLoop loop = sampled_loop(port_, 1 / rate_);
     const std::optional<SlipMotor> slips = slip_motor(network_, form_, tried, choices_, loop);
-    const Certificate certificate =
-        network_.map ? certify_behind_curve(*law, network_, slips, port_, 1 / rate_) : certify(*law, loop, slips);
-    const double squared_steepness = port_.steepest() * port_.steepest();  // 1 without a map
+    const Certificate certificate = network_.map ? certify_behind_curve(*law, network_, slips, port_, 1 / rate_)
+                                                 : certify_in_search(*law, loop, slips);
     Candidate& candidate = result.candidate;
     candidate.extra_damping_any_delay = candidate.state_inputs.front().extra_damping_any_delay;
-    candidate.largest_error = settler_.largest_error(candidate, certificate.added_damping / squared_steepness);
+    candidate.largest_error = settler_.largest_error(candidate, port_.behind_curve(certificate.added_damping));
     candidate.certified = certificate.certified;
     candidate.minimum_damping.reset();
-    if (certificate.bound.proof != Proof::none)
-      candidate.minimum_damping = certificate.minimum_damping / squared_steepness;
+    if (certificate.bound.proof != Proof::none) candidate.minimum_damping = certificate.minimum_damping;
     result.option = {damping, candidate.largest_error, candidate.minimum_damping, certificate.certified,
                      candidate.motor_noise};
     return result;

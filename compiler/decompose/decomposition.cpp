@@ -42,7 +42,7 @@ class Decomposer {
     list.push_back({"velocity-free", feedthrough, "the feedthrough damping: no velocity estimate in the motor",
                     StateInput::position});
     list.push_back(observed("largest-observer", ObserverRule::largest));
-    if (has_slips()) {
+    if (has_slips(network_)) {
       for (const char* slip_law : {"steady", "ramped", "gated"})
         list.push_back(observed(slip_law, ObserverRule::most_dissipative));
     }
@@ -110,11 +110,6 @@ class Decomposer {
             feedthrough,
             "the most damping whose felt error is within the tolerance or, if none is, near the least",
             {}};
-  }
-
-  bool has_slips() const {
-    return std::any_of(network_.elements.begin(), network_.elements.end(),
-                       [](const Element& element) { return std::holds_alternative<Slip>(element.law); });
   }
 
   Split observed(const char* name, ObserverRule rule) const {
@@ -238,12 +233,10 @@ bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics) {
   return true;
 }
 
-std::optional<Decomposition> decompose(const Network& network, const LinearForm& form, const Choices& asked,
-                                       const Device* device, Diagnostics& diagnostics) {
-  const Choices choices = with_names(asked, false);
-  std::optional<PortDevice> port = device ? PortDevice::of(*device, network, diagnostics) : PortDevice::ideal();
-  if (!port || refuse_impossible_choices(network, choices, *port, diagnostics)) return std::nullopt;
-  const Decomposer decomposer(network, form, choices, *port);
+std::optional<Decomposition> decompose(const Network& network, const LinearForm& form, const Choices& choices,
+                                       const PortDevice& device, Diagnostics& diagnostics) {
+  if (refuse_impossible_choices(network, choices, device, diagnostics)) return std::nullopt;
+  const Decomposer decomposer(network, form, choices, device);
   Decomposition result;
   if (choices.scheme == Scheme::backward_euler) result.realisation = decomposer.realisation();
   for (const Split& split : decomposer.splits())
@@ -263,10 +256,10 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
     else diagnostics.report<DiagnosticCode::unknown_decomposition>(network.name_span, *name);
     return std::nullopt;
   }
-  result.encoder_step = port->encoder_step();
+  result.encoder_step = device.encoder_step();
   result.tolerance = choices.tolerance;
-  result.reason = reason_for_input(result.choice(), network, choices, port->is_ideal());
-  warn_about_share(result.choice(), network, form, *port, diagnostics);
+  result.reason = reason_for_input(result.choice(), network, choices, device.is_ideal());
+  warn_about_share(result.choice(), network, form, device, diagnostics);
   return result;
 }
 
@@ -320,6 +313,7 @@ std::string candidates_text(const Decomposition& decomposition, const Network& n
   const bool is_tunable = has_tunables(network);
   const Candidate& choice = decomposition.choice();
   std::string reasons, equals;
+  bool has_marks = false;
   for (const Candidate& c : decomposition.candidates) {
     const Candidate& first =
         *std::find_if(decomposition.candidates.begin(), decomposition.candidates.end(), [&](const Candidate& other) {
@@ -327,12 +321,16 @@ std::string candidates_text(const Decomposition& decomposition, const Network& n
           return is_same(other, c) && !is_left_out;
         });
     reasons += reason_line(c);
-    if (&first == &c) text += candidate_row(c, is_tunable && &c != &choice ? "*" : "");
-    else equals += fmt::format("{}{} as {}", equals.empty() ? "" : ", ", c.name, first.name);
+    if (&first != &c) {
+      equals += fmt::format("{}{} as {}", equals.empty() ? "" : ", ", c.name, first.name);
+      continue;
+    }
+    const bool is_marked = is_tunable && &c != &choice;
+    text += candidate_row(c, is_marked ? "*" : "");
+    has_marks |= is_marked;
   }
   if (!equals.empty()) text += fmt::format("the same              {}\n", equals);
-  if (is_tunable && decomposition.candidates.size() > 1)
-    text += fmt::format("rows with *           {}\n", meaning_of_marks());
+  if (has_marks) text += fmt::format("rows with *           {}\n", meaning_of_marks());
   return text + "reasons\n" + reasons;
 }
 

@@ -7,9 +7,9 @@
 
 #include "decompose/choices.hpp"
 #include "decompose/faithful_rule.hpp"
+#include "decompose/port_device.hpp"
 #include "decompose/slip_decomposition.hpp"
 #include "linear/linear_form.hpp"
-#include "network/device.hpp"
 #include "network/network.hpp"
 
 namespace dashpot::compiler {
@@ -66,11 +66,10 @@ struct Decomposition {
   const Candidate& choice() const { return candidates[chosen]; }
 };
 
-// In: the network, its canonical form, the user's choices, the device if there is one. Ensures: every damping ≥ 0 and
-// within the brake's reach. Refuses: nodal with exact, an unknown
-// name, a negative damping, a device whose motion does not fit.
+// In: the network, its canonical form, the user's choices with their names (with_names). Ensures: every damping ≥ 0 and
+// within the brake's reach. Refuses: nodal with exact, an unknown name.
 std::optional<Decomposition> decompose(const Network& network, const LinearForm& form, const Choices& choices,
-                                       const Device* device, Diagnostics& diagnostics);
+                                       const PortDevice& device, Diagnostics& diagnostics);
 
 // Warns: capping, b > Z_d(0), more error than `virtual`.
 void warn_about_choice(const Decomposition& decomposition, const Network& network, const LinearForm& form,

@@ -22,8 +22,8 @@ double compensated_share(const PortDevice& device) {
   return device.assured_share() * device.sample_period() / device.longest_hold() * careful;
 }
 
-PartDecomposer::PartDecomposer(SlipPart part, const PortDevice& device, bool is_tunable, bool behind_contact)
-    : part_(std::move(part)), device_(device), is_tunable_(is_tunable), behind_contact_(behind_contact) {
+PartDecomposer::PartDecomposer(SlipPart part, bool is_tunable, bool behind_contact)
+    : part_(std::move(part)), is_tunable_(is_tunable), behind_contact_(behind_contact) {
   for (std::size_t i = 0; i < part_.gated.size(); ++i) {
     Real& feedthrough = part_.gated[i].feedthrough_damping;
     feedthrough = snapped(feedthrough, regime(i).feedthrough());
@@ -33,12 +33,13 @@ PartDecomposer::PartDecomposer(SlipPart part, const PortDevice& device, bool is_
   }
 }
 
-ComponentSplit PartDecomposer::split(const SlipPlan& plan) const {
+ComponentSplit PartDecomposer::split(const SlipPlan& plan, const PortDevice& device) const {
   ComponentSplit split{{}, {}, part_.regimes, {}, {}, plan.law, ""};
-  for (const SlipLaw law : laws_to_choose_from) split.offers.push_back({law, refusal_of(law, plan)});
-  split.reason = plan.law == SlipLaw::by_motor ? "the brake's damping does not change" : refusal_of(plan.law, plan);
+  for (const SlipLaw law : laws_to_choose_from) split.offers.push_back({law, refusal_of(law, plan, device)});
+  split.reason =
+      plan.law == SlipLaw::by_motor ? "the brake's damping does not change" : refusal_of(plan.law, plan, device);
   if (plan.law != SlipLaw::by_motor && !split.reason.empty()) split.law = SlipLaw::velocity_free;
-  split.shares = shares(split.law, plan);
+  split.shares = shares(split.law, plan, device);
   return split;
 }
 
@@ -67,7 +68,7 @@ std::string PartDecomposer::hindrance_to_choice() const {
   return is_listed() ? "" : fmt::format("regimes of {} coupled slips are not listed", part_.regimes.slips.size());
 }
 
-std::string PartDecomposer::refusal_of(SlipLaw law, const SlipPlan& plan) const {
+std::string PartDecomposer::refusal_of(SlipLaw law, const SlipPlan& plan, const PortDevice& device) const {
   if (law == SlipLaw::velocity_free || law == SlipLaw::by_motor) return hindrance_to_choice();
   if (!hindrance_to_choice().empty()) return hindrance_to_choice();
   if (law == SlipLaw::gated)
@@ -79,34 +80,34 @@ std::string PartDecomposer::refusal_of(SlipLaw law, const SlipPlan& plan) const 
     if (behind_contact_) return "the brake lets go of a free tool, so that nothing is steady";
     return std::isfinite(plan.estimate_gain)
                ? ""
-               : fmt::format("nothing bounds the estimator '{}'", device_.estimator_name());
+               : fmt::format("nothing bounds the estimator '{}'", device.estimator_name());
   }
-  if (!device_.estimate_memory())
+  if (!device.estimate_memory())
     return fmt::format(
-        "the estimator '{}' {}", device_.estimator_name(),
-        device_.divides_by_varying_interval() ? "divides by intervals that vary" : "never forgets or is not linear");
-  return device_.amplifier_lag() > 0 ? "the amplifier lags, and so never forgets" : "";
+        "the estimator '{}' {}", device.estimator_name(),
+        device.divides_by_varying_interval() ? "divides by intervals that vary" : "never forgets or is not linear");
+  return device.amplifier_lag() > 0 ? "the amplifier lags, and so never forgets" : "";
 }
 
-std::vector<BrakeShare> PartDecomposer::shares(SlipLaw law, const SlipPlan& plan) const {
+std::vector<BrakeShare> PartDecomposer::shares(SlipLaw law, const SlipPlan& plan, const PortDevice& device) const {
   const std::size_t count = std::max<std::size_t>(part_.regimes.regimes.size(), 1);
   if (law == SlipLaw::by_motor) return std::vector<BrakeShare>(count);
   // b∞ of the regimes that are not listed is no less than that with all slips sliding.
   if (!is_listed()) return {{to_double(part_.sliding.feedthrough_damping), part_.sliding.feedthrough_damping, 0}};
   std::vector<BrakeShare> shares;
-  for (std::size_t i = 0; i < count; ++i) shares.push_back(share(law, plan, i));
+  for (std::size_t i = 0; i < count; ++i) shares.push_back(share(law, plan, device, i));
   return shares;
 }
 
-BrakeShare PartDecomposer::share(SlipLaw law, const SlipPlan& plan, std::size_t i) const {
+BrakeShare PartDecomposer::share(SlipLaw law, const SlipPlan& plan, const PortDevice& device, std::size_t i) const {
   const Real& feedthrough = regime(i).feedthrough();
   const double floor = to_double(largest_feedthrough());
   if (law == SlipLaw::gated) return {to_double(gated_brakes_[i]), part_.gated[i].feedthrough_damping, 0};
   if (law == SlipLaw::steady) {
     const double excess = plan.excess * largest_excess();
-    return {floor + excess, feedthrough, compensated_share(device_) / plan.estimate_gain * excess};
+    return {floor + excess, feedthrough, compensated_share(device) / plan.estimate_gain * excess};
   }
-  if (law == SlipLaw::ramped) return {floor + excess_of(i), feedthrough, compensated_share(device_) * excess_of(i)};
+  if (law == SlipLaw::ramped) return {floor + excess_of(i), feedthrough, compensated_share(device) * excess_of(i)};
   return {to_double(feedthrough), feedthrough, 0};
 }
 

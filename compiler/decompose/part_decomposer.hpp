@@ -19,11 +19,10 @@ struct SlipPart {
 
 class PartDecomposer {
  public:
-  // The device outlives this.
-  PartDecomposer(SlipPart part, const PortDevice& device, bool is_tunable, bool behind_contact);
+  PartDecomposer(SlipPart part, bool is_tunable, bool behind_contact);
 
   // All but what is rendered.
-  ComponentSplit split(const SlipPlan& plan) const;
+  ComponentSplit split(const SlipPlan& plan, const PortDevice& device) const;
 
  private:
   bool is_listed() const { return !part_.regimes.regimes.empty(); }
@@ -32,14 +31,13 @@ class PartDecomposer {
   double excess_of(std::size_t i) const;
   double largest_excess() const;
   std::string hindrance_to_choice() const;
-  std::string refusal_of(SlipLaw law, const SlipPlan& plan) const;
-  std::vector<BrakeShare> shares(SlipLaw law, const SlipPlan& plan) const;
-  BrakeShare share(SlipLaw law, const SlipPlan& plan, std::size_t i) const;
+  std::string refusal_of(SlipLaw law, const SlipPlan& plan, const PortDevice& device) const;
+  std::vector<BrakeShare> shares(SlipLaw law, const SlipPlan& plan, const PortDevice& device) const;
+  BrakeShare share(SlipLaw law, const SlipPlan& plan, const PortDevice& device, std::size_t i) const;
 
   SlipPart part_;
   std::vector<Real>
       gated_brakes_;  // b∞ of what is computed, and the viscosity that the dampers left out have at low frequency
-  const PortDevice& device_;
   bool is_tunable_, behind_contact_;
 };
 

@@ -28,13 +28,15 @@ class PortDevice {
   double damping_scale() const { return damping_scale_; }                         // from the joint to the tool
   double position_scale() const { return position_scale_; }                       // likewise
   double steepest() const { return steepest_; }  // w′ of a static curve, at most; else 1
-  std::optional<double> max_damping() const;     // at the tool [N·s/m]; empty: any
-  double tolerance() const;                      // ε of the brake [1]
-  double assured_share() const;                  // (1 − ε)/(1 + (v_max/v_c)²) [1]
-  double residual_damping() const;               // of the brake at zero current, at the tool [N·s/m]
-  double band_low() const;                       // [rad/s]
-  double band_high() const;                      // [rad/s]
-  double reference_frequency() const;            // [rad/s]; 0: the limit ω → 0
+  // A damping at the tool as a law behind the static curve sees it, where that is steepest [N·s/m].
+  double behind_curve(double damping) const { return damping / (steepest_ * steepest_); }
+  std::optional<double> max_damping() const;  // at the tool [N·s/m]; empty: any
+  double tolerance() const;                   // ε of the brake [1]
+  double assured_share() const;               // (1 − ε)/(1 + (v_max/v_c)²) [1]
+  double residual_damping() const;            // of the brake at zero current, at the tool [N·s/m]
+  double band_low() const;                    // [rad/s]
+  double band_high() const;                   // [rad/s]
+  double reference_frequency() const;         // [rad/s]; 0: the limit ω → 0
 
   // G(jω) = V̂/U̇ of the estimator; a pure delay where the estimator is not linear. 1 for an ideal device.
   std::complex<double> velocity_response(double angular_frequency) const;

@@ -9,8 +9,8 @@
 namespace dashpot::compiler {
 namespace {
 
-PartDecomposer decomposer_of(SlipPart part, const Network& network, const PortDevice& device) {
-  return {std::move(part), device, has_tunables(network), network.contact.has_value()};
+PartDecomposer decomposer_of(SlipPart part, const Network& network) {
+  return {std::move(part), has_tunables(network), network.contact.has_value()};
 }
 
 // With a contact and a part that is no tree, all slips are solved together.
@@ -71,8 +71,7 @@ double ramp_of(unsigned memory, double share_of_coil) {
 
 }  // namespace
 
-std::optional<SlipLaw> slip_law_asked_for(const Choices& asked) {
-  const Choices choices = with_names(asked, true);
+std::optional<SlipLaw> slip_law_asked_for(const Choices& choices) {
   const auto* name = std::get_if<std::string>(&choices.decomposition);
   if (name == nullptr || *name == "virtual") return SlipLaw::by_motor;
   for (const SlipLaw law : laws_to_choose_from)
@@ -81,59 +80,59 @@ std::optional<SlipLaw> slip_law_asked_for(const Choices& asked) {
   return run_decides ? std::nullopt : std::optional(SlipLaw::velocity_free);
 }
 
-SlipDecomposer::SlipDecomposer(const Network& network, const NormalForm& form, const PortDevice& device)
-    : device_(device) {
+SlipDecomposer::SlipDecomposer(const Network& network, const NormalForm& form, double reference_frequency) {
   if (!network.contact || form.networks.empty())
-    for (const NormalTree& tree : form.components) components_.push_back(component(network, tree, device));
+    for (const NormalTree& tree : form.components) components_.push_back(component(network, tree, reference_frequency));
   for (const std::vector<std::size_t>& part : network_parts(network, form))
-    networks_.push_back(in_no_tree(network, part, device));
+    networks_.push_back(in_no_tree(network, part, reference_frequency));
 }
 
 SlipDecomposer::Component SlipDecomposer::component(const Network& network, const NormalTree& tree,
-                                                    const PortDevice& device) {
-  SlipPart part{regimes_of(network, tree, device.reference_frequency()), {}, {}};
+                                                    double reference_frequency) {
+  SlipPart part{regimes_of(network, tree, reference_frequency), {}, {}};
   const std::vector<SlipElements>& slips = part.regimes.slips;
   part.sliding = form_in_regime(tree, slips, std::vector<bool>(slips.size(), true));
   std::optional<NormalTree> gated = without_dampers_beside_slips(tree);
   if (gated)
     for (const Regime& regime : part.regimes.regimes)
       part.gated.push_back(form_in_regime(*gated, slips, regime.slides));
-  return {decomposer_of(std::move(part), network, device), tree, std::move(gated)};
+  return {decomposer_of(std::move(part), network), tree, std::move(gated)};
 }
 
 SlipDecomposer::InNoTree SlipDecomposer::in_no_tree(const Network& network, const std::vector<std::size_t>& elements,
-                                                    const PortDevice& device) {
-  SlipPart part{regimes_of(network, elements, device.reference_frequency()), {}, {}};
+                                                    double reference_frequency) {
+  SlipPart part{regimes_of(network, elements, reference_frequency), {}, {}};
   if (!part.regimes.regimes.empty()) part.sliding = part.regimes.regimes.back().form;
   std::optional<std::vector<std::size_t>> gated = without_dampers_beside_slips(network, elements);
   if (gated)
-    for (const Regime& regime : regimes_of(network, *gated, part.regimes.slips, device.reference_frequency()).regimes)
+    for (const Regime& regime : regimes_of(network, *gated, part.regimes.slips, reference_frequency).regimes)
       part.gated.push_back(regime.form);
-  return {decomposer_of(std::move(part), network, device), elements, std::move(gated)};
+  return {decomposer_of(std::move(part), network), elements, std::move(gated)};
 }
 
-SlipDecomposition SlipDecomposer::decomposed(const Candidate& linear_part, const SlipPlan& plan) const {
+SlipDecomposition SlipDecomposer::decomposed(const Candidate& linear_part, const SlipPlan& plan,
+                                             const PortDevice& device) const {
   SlipDecomposition slips;
   for (const Component& component : components_) {
-    slips.components.push_back(component.decomposer.split(plan));
+    slips.components.push_back(component.decomposer.split(plan, device));
     ComponentSplit& split = slips.components.back();
     split.rendered = component.rendered(split.law);
   }
   for (const InNoTree& part : networks_) {
-    slips.networks.push_back(part.decomposer.split(plan));
+    slips.networks.push_back(part.decomposer.split(plan, device));
     ComponentSplit& split = slips.networks.back();
     split.rendered_elements = part.rendered(split.law);
   }
-  if (const std::optional<double> most = device_.max_damping())
+  if (const std::optional<double> most = device.max_damping())
     cap(slips.networks, cap(slips.components, std::max(0.0, *most - linear_part.damping - plan.reserve)));
   double span = 0;
   for (const ComponentSplit* split : slips.all()) span += largest_damping(*split);
-  slips.hysteresis = hysteresis_steps * device_.encoder_step();
-  slips.coil_share = coil_share(device_, std::sqrt(span));
-  slips.assured_share = assured_share(device_);
-  slips.make_up = make_up(linear_part, device_);
+  slips.hysteresis = hysteresis_steps * device.encoder_step();
+  slips.coil_share = coil_share(device, std::sqrt(span));
+  slips.assured_share = assured_share(device);
+  slips.make_up = make_up(linear_part, device);
   // Within the hold in which a coil is told something it is not there yet.
-  slips.memory = device_.estimate_memory().value_or(0) + (slips.coil_share < 1 ? 1 : 0);
+  slips.memory = device.estimate_memory().value_or(0) + (slips.coil_share < 1 ? 1 : 0);
   slips.ramp = ramp_of(slips.memory, slips.coil_share);
   return slips;
 }
@@ -184,17 +183,14 @@ ExtremeRuns extreme_runs(const std::vector<SlipRunError>& runs) {
   return {*mildest, *worst};
 }
 
-std::optional<Decomposition> decompose(const Network& network, const NormalForm& form, const Choices& asked,
-                                       const Device* device, Diagnostics& diagnostics) {
-  const Choices choices = with_names(asked, device != nullptr || form.has_slips());
+std::optional<Decomposition> decompose(const Network& network, const NormalForm& form,
+                                       const SlipDecomposer& behind_slips, const Choices& choices,
+                                       const PortDevice& device, Diagnostics& diagnostics) {
   std::optional<Decomposition> result =
       decompose(linear_part(network, form), form.linear, choices, device, diagnostics);
   if (!result || !form.has_slips()) return result;
-  const std::optional<PortDevice> port = device ? PortDevice::of(*device, network, diagnostics) : PortDevice::ideal();
-  if (!port) return result;
   const SlipLaw law = slip_law_asked_for(choices).value_or(SlipLaw::velocity_free);
-  result->slips =
-      SlipDecomposer(network, form, *port).decomposed(result->choice(), {law, 1, port->largest_estimator_gain()});
+  result->slips = behind_slips.decomposed(result->choice(), {law, 1, device.largest_estimator_gain()}, device);
   for (ComponentSplit& split : result->slips.components) say_asked_for(split);
   for (ComponentSplit& split : result->slips.networks) say_asked_for(split);
   if (!has_what_was_asked_for(network, result->slips, law, diagnostics)) return std::nullopt;

@@ -27,19 +27,21 @@ inline constexpr double hysteresis_steps = 1.5;
 
 std::string_view name_of(SlipLaw law);
 
-// The law that a name of --decomposition asks for; none where a run decides. A damping and `virtual`: all by the motor.
+// The law that a name of --decomposition (with_names) asks for; none where a run decides. A damping and `virtual`: all
+// by the motor.
 std::optional<SlipLaw> slip_law_asked_for(const Choices& choices);
 
-// All parts of a network that are behind slips. What every plan begins with, the regimes, is worked out once.
+// All parts of a network that are behind slips; none where it has none. What every plan begins with, the regimes, is
+// worked out once.
 class SlipDecomposer {
  public:
-  // The device outlives this.
-  SlipDecomposer(const Network& network, const NormalForm& form, const PortDevice& device);
+  // In: the frequency at which shares of dissipation are compared [rad/s].
+  SlipDecomposer(const Network& network, const NormalForm& form, double reference_frequency);
 
   // In: the decomposition of what reaches ground without a slip. Ensures: together with that part no regime asks for
   // more than the brake gives; every feedthrough ≤ b∞ and ≤ b of its regime, every compensation ≤ (1 − ε) (h/T_max) of
   // what b has beyond the largest b∞ of all regimes.
-  SlipDecomposition decomposed(const Candidate& linear_part, const SlipPlan& plan) const;
+  SlipDecomposition decomposed(const Candidate& linear_part, const SlipPlan& plan, const PortDevice& device) const;
 
  private:
   // One of them, and what of it is rendered: all, or without the dampers beside slips.
@@ -54,19 +56,19 @@ class SlipDecomposer {
   using Component = Part<NormalTree>;
   using InNoTree = Part<std::vector<std::size_t>>;  // slips that meet in no tree
 
-  static Component component(const Network& network, const NormalTree& tree, const PortDevice& device);
+  static Component component(const Network& network, const NormalTree& tree, double reference_frequency);
   static InNoTree in_no_tree(const Network& network, const std::vector<std::size_t>& elements,
-                             const PortDevice& device);
+                             double reference_frequency);
 
-  const PortDevice& device_;
   std::vector<Component> components_;
   std::vector<InNoTree> networks_;
 };
 
 // Both: what reaches ground without a slip, then the rest by the law asked for, velocity-free where a run has to
 // decide. Warns and refuses as decompose() of linear networks.
-std::optional<Decomposition> decompose(const Network& network, const NormalForm& form, const Choices& choices,
-                                       const Device* device, Diagnostics& diagnostics);
+std::optional<Decomposition> decompose(const Network& network, const NormalForm& form,
+                                       const SlipDecomposer& behind_slips, const Choices& choices,
+                                       const PortDevice& device, Diagnostics& diagnostics);
 
 // The elements of the slips that slide, or hold, in a regime.
 std::vector<std::string> slip_names(const RegimeList& list, const Regime& regime, bool sliding, const Network& network);

@@ -49,7 +49,7 @@ class LawBuilder {
         slips_(writer_, network, sample_period, form, decomposition.slips),
         brake_(writer_, decomposition.slips, slips_, linear_damping_, sample_period) {
     // A static curve's map begins at the surface.
-    if (network.contact) contact_.emplace(writer_, network.map ? 0 : network.surface(), decomposition.encoder_step);
+    if (network.contact) contact_.emplace(writer_, network.surface_behind_map(), decomposition.encoder_step);
   }
 
   UpdateLaw build() {

@@ -108,7 +108,7 @@ class TablesBuilder {
       tables_.brake.assured_share = to_scalar(Real(decomposition_.slips.assured_share));
     head.static_spring = no_index;
     // Behind a static curve's map a surface lies where the map begins.
-    const double surface = network_.map ? 0 : network_.surface();
+    const double surface = network_.surface_behind_map();
     head.contact = {network_.contact.has_value(), to_scalar(Real(surface)),
                     to_scalar(Real(decomposition_.encoder_step))};
     const SlipDecomposition& slips = decomposition_.slips;

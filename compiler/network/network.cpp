@@ -59,6 +59,11 @@ bool has_tunables(const Network& network) {
                      [](const Parameter& parameter) { return parameter.tunable; });
 }
 
+bool has_slips(const Network& network) {
+  return std::any_of(network.elements.begin(), network.elements.end(),
+                     [](const Element& element) { return std::holds_alternative<Slip>(element.law); });
+}
+
 std::string to_text(const Network& network) {
   std::string out;
   append_header(out, network);

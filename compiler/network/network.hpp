@@ -101,6 +101,7 @@ struct Network {
   // Where the unloaded surface lies, and what of a position pushes it in; without a contact 0, and all of it [m] or
   // [rad].
   double surface() const { return contact ? contact->at : 0; }
+  double surface_behind_map() const { return map ? 0 : surface(); }  // as the law sees it
   double pushed_in(double position) const { return contact ? dashpot::pushed_in(contact->at, position) : position; }
 };
 
@@ -112,8 +113,9 @@ struct Network {
 std::optional<Network> build_network(const NetworkDecl& decl, Diagnostics& diagnostics,
                                      const std::optional<Range>& device_band = std::nullopt);
 
-// Whether a parameter may change while the law runs.
+// Whether a parameter may change while the law runs, and whether an element is a slip; those of ports apart.
 bool has_tunables(const Network& network);
+bool has_slips(const Network& network);
 
 std::string to_text(const Network& network);
 std::string to_text(const Springpot& springpot, motion port_motion);

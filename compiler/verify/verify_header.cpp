@@ -51,7 +51,6 @@ double value_of(const Groups& groups, const std::string& kind) {
 
 MotorConstants motor_of(const Groups& groups) {
   MotorConstants motor;
-  motor.brake = value_of(groups, "damping");
   motor.static_stiffness = value_of(groups, "static_stiffness");
   motor.half_static_stiffness = value_of(groups, "half_static_stiffness");
   motor.step_stiffness = value_of(groups, "step_stiffness");

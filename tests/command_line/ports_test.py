@@ -73,6 +73,14 @@ class PortsTest(CommandTest):
         self.assertIn("; certified", self.dashpot("verify", "law.json", "finger_pad.hpp").stdout)
 
     # If this fails, verify refuses a right law of a port whose surface lies at 0, where no constant says so.
+    def test_slips_in_one_port_are_verified_without_a_device(self):
+        """Fails if a port without slips is chosen for by another rule than one with them: a certificate has one for all."""
+        net = self.write("mixed.json", """{ "dashpot": 1, "name": "mixed", "ports": [
+            { "name": "pad", "network": { "series": [ { "slip": 0.05 }, { "spring": 400 } ] } },
+            { "name": "guide", "network": { "parallel": [ { "damper": 2 }, { "series": [ { "spring": 60 }, { "damper": 1 } ] } ] } } ] }""")
+        self.dashpot("compile", net, "--uncertified", "-o", ".", "--certificate", "mixed.cert.json")
+        self.dashpot("verify", "mixed.cert.json", "mixed.hpp", "--allow-uncertified")
+
     def test_a_surface_at_zero_is_verified(self):
         network = self.network({"name": "a", "network": KELVIN, "contact": {"at": "0 mm"}}, {"name": "b", "network": {"spring": "300 N/m"}})
         for options in [[], ["--device", "rig.json"]]:

@@ -75,7 +75,6 @@ TEST(KnownValues, ShortfallOfTheBrake) {
   for (const auto& [tolerance, missing, window] : {std::tuple(0.02, 0.075, 1u), std::tuple(0.05, 0.225, 1u),
                                                    std::tuple(0.02, 0.0, 5u), std::tuple(0.05, 0.0, 15u)}) {
     MotorConstants motor = damper_motor(-damping);
-    motor.brake = damping;
     add_maxwell(motor, stiffness, stiffness / damping, known_period, false);
     SampledLoop loop = differencing_loop(known_period, window);
     loop.delay_samples = 1;

@@ -387,7 +387,6 @@ TEST(Supremum, OfAFilterNearHalfTheRate) {
       loop.velocity.cutoff = share * 1000;
       // A Maxwell element of 50 N·s/m, all of which the brake has: velocity driven, −b + k/(s + λ).
       MotorConstants motor = damper_motor(-50);
-      motor.brake = 50;
       add_maxwell(motor, 500, 10, loop.sample_period, false);
       expect_supremum_of(motor, loop, 200);
       const PassivityBound bound = passivity_bound(motor, loop);

@@ -24,8 +24,9 @@ compiler::UpdateLaw law_for(const char* structure, double step, const char* deco
   compiler::Choices choices;
   choices.decomposition = decomposition;
   compiler::Diagnostics diagnostics;
-  compiler::Decomposition split =
-      decompose(compiler::linear_part(c.network, c.form), c.form.linear, choices, nullptr, diagnostics).value();
+  compiler::Decomposition split = decompose(compiler::linear_part(c.network, c.form), c.form.linear, choices,
+                                            compiler::PortDevice::ideal(), diagnostics)
+                                      .value();
   split.encoder_step = step;
   return discretise(c.network, c.form, split, choices, 1 / slip_period);
 }
@@ -146,7 +147,8 @@ TEST(ContactCommand, RefusesStatesDrivenByTheEstimate) {
   compiler::Choices choices;
   choices.state_input = compiler::StateInput::velocity;
   compiler::Diagnostics diagnostics;
-  EXPECT_FALSE(decompose(network, compiler::linear_form(network), choices, nullptr, diagnostics));
+  EXPECT_FALSE(decompose(network, compiler::linear_form(network), compiler::with_names(choices, false),
+                         compiler::PortDevice::ideal(), diagnostics));
   EXPECT_EQ(diagnostics.in_file_order().front().code, compiler::DiagnosticCode::contact_needs_position);
 }
 

@@ -35,7 +35,9 @@ struct Decomposed {
 inline Decomposed decomposed(Network network, const Choices& choices = {}, const Device* device = nullptr) {
   Decomposed all{std::move(network), {}, {}, {}};
   all.form = linear_form(all.network);
-  all.result = decompose(all.network, all.form, choices, device, all.diagnostics);
+  const std::optional<PortDevice> port =
+      device ? PortDevice::of(*device, all.network, all.diagnostics) : PortDevice::ideal();
+  if (port) all.result = decompose(all.network, all.form, with_names(choices, false), *port, all.diagnostics);
   if (all.result) warn_about_choice(*all.result, all.network, all.form, all.diagnostics);
   return all;
 }

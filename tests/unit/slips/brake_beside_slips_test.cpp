@@ -61,7 +61,8 @@ struct Scan {
 // Every law with each of some dampings beside the slips, position driven, one after the other.
 Scan scanned(const Compilation& c, double allowed, int steps) {
   const Choices choices = with_names({}, true);
-  SlipRuns runs(c, choices, c.port);
+  const SlipDecomposer behind_slips(c.network, c.form, c.port.reference_frequency());
+  SlipRuns runs(c, behind_slips, choices, c.port);
   CandidateSettler settler(c.network, c.form, c.decomposition, choices, c.port, c.rate);
   struct Option {
     double error, added, mean;

@@ -77,7 +77,9 @@ std::string said_of(const compiler::Network& network, const char* law) {
   compiler::Choices choices;
   choices.decomposition = law;
   compiler::Diagnostics diagnostics;
-  EXPECT_FALSE(compiler::decompose(network, compiler::normal_form(network), choices, nullptr, diagnostics));
+  const compiler::NormalForm form = compiler::normal_form(network);
+  EXPECT_FALSE(
+      compiler::decompose(network, form, {network, form, 0}, choices, compiler::PortDevice::ideal(), diagnostics));
   return compiler::render_text(diagnostics);
 }
 

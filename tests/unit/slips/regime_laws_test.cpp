@@ -250,12 +250,6 @@ NetworkRecipe few_slips() {
   return recipe;
 }
 
-bool has_slips(const compiler::Network& network) {
-  return std::any_of(network.elements.begin(), network.elements.end(), [](const compiler::Element& element) {
-    return std::holds_alternative<compiler::Slip>(element.law);
-  });
-}
-
 // With `law` and a brake of little reach.
 std::string gain_with_a_small_brake(const compiler::Network& network, const char* law) {
   if (!has_slips(network)) return "";

@@ -64,7 +64,7 @@ TEST(RunError, TheDefaultIsWithinFivePercentAtEverySample) {
     const compiler::Network network = network_with_choice(seed);
     const compiler::Compilation chosen = by_default(network), exact = by_default(network, "virtual");
     const compiler::PortDevice ideal = compiler::PortDevice::ideal();
-    const compiler::SlipTrial trial(network, exact.law, exact.law, ideal, 0);
+    const compiler::SlipTrial trial(network, exact.law, exact.law, ideal);
     for (const SlipLaw law : {SlipLaw::steady, SlipLaw::ramped, SlipLaw::gated})
       for (const auto* split : chosen.decomposition.slips.all()) braking += split->law == law ? 1 : 0;
     for (std::size_t m = 0; m < trial.motions().size(); ++m)
@@ -118,7 +118,7 @@ TEST(RunError, BetweenTwoRunsIsThatOfEverySample) {
       R"({"parallel": [{"damper": 1}, {"series": [{"spring": 500}, {"parallel": [{"slip": 0.4}, {"damper": 5}]}]}]})");
   const compiler::Compilation c = by_default(network, "virtual");
   const compiler::PortDevice ideal = compiler::PortDevice::ideal();
-  const compiler::SlipTrial trial(network, c.law, c.law, ideal, 0);
+  const compiler::SlipTrial trial(network, c.law, c.law, ideal);
   Random random(7);
   const auto felt_with = [&](double noise, double beyond) {
     std::vector<compiler::FeltForce> felt;
@@ -155,7 +155,7 @@ TEST(RunError, MotionsOfVeryFastLoopsAreWhole) {
   choices.decomposition = "virtual";
   const compiler::Compilation c = compiled(network, choices, nullptr);
   const compiler::PortDevice ideal = compiler::PortDevice::ideal();
-  const compiler::SlipTrial trial(network, c.law, c.law, ideal, 0);
+  const compiler::SlipTrial trial(network, c.law, c.law, ideal);
   ASSERT_FALSE(trial.motions().empty());
   for (const auto& motion : trial.motions()) {
     EXPECT_LE(motion.position.size(), 1500u) << motion.name;

@@ -27,6 +27,11 @@ double typical_displacement(const compiler::Network& network, Random& random) {
   return yields[random.index(yields.size())] / stiffness[random.index(stiffness.size())];
 }
 
+compiler::PortDevice port_of(const compiler::Device* device, const compiler::Network& network) {
+  compiler::Diagnostics diagnostics;
+  return device ? compiler::PortDevice::of(*device, network, diagnostics).value() : compiler::PortDevice::ideal();
+}
+
 }  // namespace
 
 compiler::Compilation compiled(const compiler::Network& network, compiler::Scheme scheme, compiler::ScalarType scalar) {
@@ -38,7 +43,7 @@ compiler::Compilation compiled(const compiler::Network& network, compiler::Schem
   return compiled(network, choices, nullptr);
 }
 
-compiler::Compilation compiled(const compiler::Network& network, const compiler::Choices& choices,
+compiler::Compilation compiled(const compiler::Network& network, const compiler::Choices& asked,
                                const compiler::Device* device) {
   compiler::Diagnostics diagnostics;
   compiler::Compilation result;
@@ -47,13 +52,13 @@ compiler::Compilation compiled(const compiler::Network& network, const compiler:
   std::optional<compiler::NormalForm> form = compiler::closed_normal_form(network, diagnostics);
   if (!form) throw std::runtime_error(compiler::render_text(diagnostics));
   result.form = std::move(*form);
-  const auto decomposition = compiler::decompose(network, result.form, choices, device, diagnostics);
+  const compiler::Choices choices = compiler::with_names(asked, device != nullptr || result.form.has_slips());
+  result.port = port_of(device, network);
+  const compiler::SlipDecomposer behind_slips(network, result.form, result.port.reference_frequency());
+  const auto decomposition = compiler::decompose(network, result.form, behind_slips, choices, result.port, diagnostics);
   if (!decomposition) throw std::runtime_error(compiler::render_text(diagnostics));
   result.decomposition = *decomposition;
-  if (result.form.has_slips())
-    compiler::choose_slip_law(
-        result, choices,
-        device ? compiler::PortDevice::of(*device, network, diagnostics).value() : compiler::PortDevice::ideal());
+  if (result.form.has_slips()) compiler::choose_slip_law(result, behind_slips, choices, result.port);
   result.law = compiler::without_unread_locals(
       compiler::discretise(result.network, result.form, result.decomposition, choices, result.rate));
   return result;
@@ -64,7 +69,10 @@ bool can_have(const compiler::Network& network, const std::string& law, const co
   choices.decomposition = law;
   compiler::Diagnostics diagnostics;
   const std::optional<compiler::NormalForm> form = compiler::closed_normal_form(network, diagnostics);
-  return form && compiler::decompose(network, *form, choices, device, diagnostics).has_value();
+  if (!form) return false;
+  const compiler::PortDevice port = port_of(device, network);
+  const compiler::SlipDecomposer behind_slips(network, *form, port.reference_frequency());
+  return compiler::decompose(network, *form, behind_slips, choices, port, diagnostics).has_value();
 }
 
 double stiffest(const compiler::Network& network) {

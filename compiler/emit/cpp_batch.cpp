@@ -22,10 +22,11 @@ class BatchPrinter {
 
   CppBatch print() {
     CppBatch batch;
-    batch.output = lines_of(law_.output);
     std::vector<Statement> update = law_.keep;
     update.insert(update.end(), law_.update.begin(), law_.update.end());
-    batch.update = lines_of(needed_of(update));
+    update = needed_of(update);
+    batch.output = lines_of(read_of(law_.output, update));
+    batch.update = lines_of(update);
     batch.energy = lines_of(law_.energy);
     batch.loads = loads();
     batch.loaded = batch.loads.size();
@@ -102,6 +103,18 @@ class BatchPrinter {
     return needed;
   }
 
+  // Without what is remembered for those who ask the single class, and is nothing to a point.
+  std::vector<Statement> read_of(std::vector<Statement> program, const std::vector<Statement>& update) const {
+    std::set<VariableId> read = kept_;
+    for (const VariableId given : {law_.force, law_.brake, law_.last_brake, law_.checked()}) read.insert(given);
+    for (const auto* other : {&law_.output, &update, &law_.energy})
+      for (const Statement& statement : *other)
+        each_read(law_, statement, [&](VariableId found) { read.insert(found); });
+    std::erase_if(program,
+                  [&](const Statement& statement) { return statement.assigns() && read.count(statement.target) == 0; });
+    return program;
+  }
+
   std::set<VariableId> assigned_by(std::initializer_list<const std::vector<Statement>*> programs) const {
     std::set<VariableId> assigned;
     for (const std::vector<Statement>* program : programs)
@@ -146,10 +159,12 @@ class BatchPrinter {
         "}",
         ""};
     batch.constants.insert(batch.constants.begin(), begin.begin(), begin.end());
-    batch.set = {"// Between samples, of one point. Injects no energy. Bit i of the result: parameter i was beyond its",
-                 "// range and is at its bound now, or it was no number and is as it was.",
-                 "unsigned set(long long point, const parameters& wanted) noexcept {",
-                 "  scalar* const state = state_of(point);"};
+    batch.set = {
+        "// Of one point, right after a sample, which is then given once more: the force from before is held no",
+        "// longer, and the change injects no energy. Bit i of the result: parameter i was beyond its range and",
+        "// is at its bound now, or it was no number and is as it was.",
+        "unsigned set(long long point, const parameters& wanted) noexcept {",
+        "  scalar* const state = state_of(point);"};
     for (const std::string& line : lines_of_point(set_program(law_), true)) batch.set.push_back("  " + line);
     for (const char* line : {"  return clamped;", "}", ""}) batch.set.push_back(line);
   }

@@ -8,6 +8,7 @@
 #include "emit/response_test.hpp"
 #include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
+#include "lower/apart_from.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -41,8 +42,46 @@ void describe_outputs(const UpdateLaw& law, CodeModel& model) {
                               cpp_literal(law.damping, law.scalar))}});
 }
 
+// What the template and the lines of a batch declare.
+std::set<std::string> names_in_batch(const std::string& name) {
+  return {name + "_batch",
+          name + "_batch_storage",
+          name + "_points",
+          "advances",
+          "begin",
+          "block",
+          "clamped",
+          "dampings",
+          "forces",
+          "gives_commands",
+          "i",
+          "lane",
+          "number",
+          "point",
+          "points",
+          "points_from",
+          "positions",
+          "put",
+          "reset_point",
+          "run",
+          "sampled",
+          "size",
+          "state",
+          "state_of",
+          "states",
+          "storage",
+          "storage_size",
+          "tunables",
+          "value",
+          "values",
+          "vector",
+          "velocities",
+          "wanted"};
+}
+
 CodeModel batch_model(const Compilation& c) {
-  const UpdateLaw& law = c.law;
+  const std::string& name = c.network.name;
+  const UpdateLaw law = apart_from(names_in_batch(name), c.law);
   const CppBatch batch = cpp_batch(law);
   CodeModel model;
   describe_file(c, model.fields);

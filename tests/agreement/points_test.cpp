@@ -68,6 +68,20 @@ std::vector<std::string> tunable_networks(const fs::path& folder) {
   write_text(files.back(), R"({ "dashpot": 1, "name": "pressed_at_0_tunable", "contact": { "at": "-2 mm" },
     "parameters": { "K": { "value": 300, "tunable": true, "min": 30, "max": 900 } },
     "network": { "parallel": [ { "spring": "K" }, { "series": [ { "spring": "K" }, { "damper": 20 } ] } ] } })");
+  // Called like what the batch's class declares: a constant that an argument hides would be another number.
+  files.push_back((folder / "like_the_batch.json").string());
+  std::string branches = R"({ "damper": 2, "name": "point" })";
+  for (const char* name : {"block", "states", "points", "storage", "put", "run", "vector", "lane"})
+    branches += fmt::format(R"(, {{ "series": [ {{ "spring": 500 }}, {{ "slip": 0.2, "name": "{}" }} ] }})", name);
+  for (const auto& [spring, damper] : {std::pair("positions", "forces"), std::pair("i", "number"),
+                                       std::pair("state", "value"), std::pair("begin", "dampings")})
+    branches += fmt::format(
+        R"(, {{ "series": [ {{ "spring": 90, "name": "{}" }}, {{ "damper": 4, "name": "{}" }} ] }})", spring, damper);
+  write_text(files.back(), fmt::format(R"({{ "dashpot": 1, "name": "like_the_batch", "parameters": {{
+      "wanted": {{ "value": 300, "tunable": true, "min": 30, "max": 900 }},
+      "clamped": {{ "value": 3, "tunable": true, "min": 0, "max": 30 }} }},
+    "network": {{ "parallel": [ {{ "spring": "wanted" }}, {{ "damper": "clamped" }}, {} ] }} }})",
+                                       branches));
   files.push_back((folder / "rubbing.json").string());
   write_text(files.back(), R"({ "dashpot": 1, "name": "rubbing",
     "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 900 },

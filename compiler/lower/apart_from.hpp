@@ -1,0 +1,14 @@
+// A law whose names keep clear of words that the code around it has.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+// What is called like one of `words` gets a number. Parameters keep the names under which they are set.
+UpdateLaw apart_from(const std::set<std::string>& words, UpdateLaw law);
+
+}  // namespace dashpot::compiler

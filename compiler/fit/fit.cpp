@@ -393,7 +393,8 @@ class SurfaceSearch {
     double at, criterion;
   };
 
-  // Over the whole way a scan finds the valley, then golden sections its bottom.
+  // Over the whole way a scan finds the valley, of curves as they are at first. With curves that follow the surface it
+  // may lie some steps further on; then golden sections find its bottom.
   Found run() const {
     constexpr int steps = 40;
     const double width = 0.9 * (furthest_ - nearest_) / steps;
@@ -401,6 +402,10 @@ class SurfaceSearch {
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= steps; ++i)
       if (const double left = left_behind(nearest_ + i * width, false); left < least) least = left, best = i;
+    double here = left_behind(nearest_ + best * width, true);
+    for (const int way : {-1, 1})
+      for (double next = 0; best + way >= 0 && best + way <= steps; best += way, here = next)
+        if (next = left_behind(nearest_ + (best + way) * width, true); !(next < here)) break;
     constexpr double golden = 0.6180339887498949;
     double low = nearest_ + (best - 1) * width, high = nearest_ + (best + 1) * width;
     double a = high - golden * (high - low), b = low + golden * (high - low);

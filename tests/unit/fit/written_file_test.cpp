@@ -358,7 +358,14 @@ TEST(WrittenFile, IsValidWhereTheToolHasBeen) {
 // Fails if the surface of tissue that stiffens, or that the tool leaves, is looked for behind a straight network alone,
 // or with rows in which nothing touches. Cubics that are off by a two-thousandth of the force move it by some microns.
 TEST(WrittenFile, FindsTheSurfaceTogetherWithTheShape) {
-  for (const Touched& one : touched_tissues()) {
+  std::vector<Touched> tissues = touched_tissues();
+  // Powers between those that a scan begins with.
+  for (const char* power : {"1.3", "1.7", "2.4"})
+    tissues.push_back(
+        {power,
+         touched_tissue(std::string(R"("static": { "power": )") + power + R"(, "force": "1 N", "at": "3 mm" }, )", ""),
+         ShapeChoice::power});
+  for (const Touched& one : tissues) {
     Recording recorded = pressing_motion();
     recorded.force = simulated(one.tissue, recorded);
     ReductionChoices choices;

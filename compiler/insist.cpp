@@ -355,7 +355,7 @@ class RemedyNotes {
   void tell(Diagnostics& diagnostics) {
     std::stable_sort(notes_.begin(), notes_.end(),
                      [](const auto& one, const auto& other) { return one.first < other.first; });
-    if (notes_.empty()) return;
+    if (notes_.empty()) return diagnostics.note<DiagnosticCode::nothing_would_do>({});
     const bool all_ruin = notes_.front().first > ruinous;
     for (const auto& [error, tell_it] : notes_)
       if (all_ruin || error <= ruinous) tell_it(diagnostics);
@@ -556,7 +556,8 @@ std::vector<MendedDevice> mended(const Device& device) {
   const unsigned window = std::max(velocity.window / 2, velocity.estimator == estimator_kind::least_squares ? 2U : 1U);
   mend(has_window && window < velocity.window, fmt::format("with a \"window\" of {}", window),
        [=](device_description& d) { d.velocity.window = window; });
-  mend(velocity.cutoff > 0, fmt::format("with a \"cutoff\" of {:.6g} Hz", 2 * velocity.cutoff),
+  mend(velocity.cutoff > 0 && 2 * velocity.cutoff < 0.5 / is.loop.sample_period,
+       fmt::format("with a \"cutoff\" of {:.6g} Hz", 2 * velocity.cutoff),
        [](device_description& d) { d.velocity.cutoff *= 2; });
   for (MendedDevice& other : all) other.is_of_estimator = true;
   mend(is.encoder.step > 0, "with a 16th of the encoder's step", [](device_description& d) { d.encoder.step /= 16; });

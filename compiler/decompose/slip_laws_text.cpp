@@ -54,9 +54,11 @@ std::string merits_text(const SlipDecomposition& slips, const Network& network) 
   const auto row = [](const auto&... cells) {
     return fmt::format("  {:<14}{:>12}{:>11}{:>12}{:>17}{:>11}{:>13}\n", cells...);
   };
-  std::string text =
-      "laws behind slips in runs around yield: sines at both ends of the band, no slower than rate/1200 and no faster "
-      "than rate/4, and a drag with reversals\n";
+  std::string text = fmt::format(
+      "laws behind slips in runs around yield{}: sines at both ends of the band, no slower than rate/1200 and no "
+      "faster "
+      "than rate/4, and a drag with reversals\n",
+      has_tunables(network) ? ", all of it for the values of the file" : "");
   text += row("law", "peak error", "rms error", "mean brake", "minimum damping", "certified", "motor noise");
   text += row("", "%", "%", units.damping, units.damping, "", units.force);
   for (const SlipLawMerit& merit : slips.merits)

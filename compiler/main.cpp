@@ -427,7 +427,7 @@ void describe(CLI::App& app, CommandLine& line) {
   run->add_option("--seed", options.seed, "Of the simulated device's chance, default 0")
       ->check(check_seed)
       ->option_text("N");
-  run->add_flag("--fast", options.fast, "Simulated time: as fast as the machine allows");
+  run->add_flag("--fast", options.fast, "Simulated time: as fast as the machine allows, with --for");
   run->add_option("-o,--log", options.output, "Telemetry, or what is felt of a motion, default NAME_run.csv")
       ->option_text("FILE.csv");
   run->add_option("--motion", options.motion,

@@ -81,9 +81,11 @@ bool asks_a_board_to_be_simulated(const Options& options, Diagnostics& diagnosti
   return diagnostics.has_errors();
 }
 
-// A recorded motion takes as long as it takes, and needs no hand and no board.
+// A recorded motion takes as long as it takes, and needs no hand and no board. Without one something else ends a run
+// that no clock holds back.
 bool asks_for_more_than_a_motion(const Options& options, Diagnostics& diagnostics) {
   if (!options.motion) {
+    if (options.fast && !options.duration) diagnostics.report<DiagnosticCode::fast_without_end>({});
     if (options.json) diagnostics.report<DiagnosticCode::motion_only>({}, "--json");
     return diagnostics.has_errors();
   }

@@ -150,6 +150,12 @@ class WrongCommandLine(CommandTest):
             self.assertIn("--scheme backward-euler", done.stderr)
         self.dashpot("check", FIG_5, "--state-input", "nodal", "--scheme", "backward-euler")
 
+    def test_of_simulated_time_without_an_end(self):
+        """Fails if a run that no clock holds back is begun without an end: its log fills the disk."""
+        done = self.refused("run", FIG_5, "--device", PANTOGRAPH, "--fast", code="fast-without-end", status=COMMAND_LINE_WRONG)
+        self.assertIn("--for SECONDS", done.stderr)
+        self.assertEqual(self.files(), [])
+
     def test_of_a_board_that_is_to_be_simulated(self):
         """Fails if a choice that only the simulated device has is dropped in silence where a board is driven."""
         for option in [["--fast"], ["--hand", "relaxed"], ["--seed", "0"]]:

@@ -41,6 +41,10 @@ constexpr std::string_view own_components =
 const std::set<std::string> own_pins = {"position", "velocity",   "enable",       "damping",      "force", "fault",
                                         "output",   "fault_code", "out_of_range", "safe_damping", "update"};
 
+// Variables that halcompile keeps for itself.
+const std::set<std::string> variables_of_halcompile = {"comp_id", "extra_cleanup",  "extra_setup",
+                                                       "fperiod", "rtapi_app_exit", "rtapi_app_main"};
+
 // As halcompile turns a name into that of a pin.
 std::string hal_name(std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
@@ -77,6 +81,10 @@ bool has_names_of_hal(const Compilation& c, Diagnostics& diagnostics) {
     if (!p.tunable) continue;
     if (own_pins.count(p.name) != 0 || !pins.insert(hal_name(p.name)).second) {
       diagnostics.report<DiagnosticCode::parameter_name_kept_by>(p.span, p.name, "another pin of the component");
+      good = false;
+    }
+    if (variables_of_halcompile.count(p.name) != 0) {
+      diagnostics.report<DiagnosticCode::parameter_name_kept_by>(p.span, p.name, "halcompile");
       good = false;
     }
     check_length(p.span, p.name, hal_name(name) + ".0." + hal_name(p.name));

@@ -1,9 +1,10 @@
 #include "emit/step_shape.hpp"
 
-#include <fmt/format.h>
-#include "law/cost.hpp"
-
 #include <algorithm>
+#include <iterator>
+#include <string_view>
+
+#include "law/cost.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -22,7 +23,12 @@ bool can_be_timed(const Compilation& c, Diagnostics& diagnostics) {
 }
 
 bool can_be_c99(const std::string& name, const Span& name_span, Diagnostics& diagnostics) {
-  const bool is_taken = name == "restrict" || name.starts_with("dashpot_");
+  // The network is a type of that name beside those of C's headers and the functions that compilers call.
+  constexpr std::string_view kept[] = {"restrict",    "self",     "main",   "memcmp",    "memcpy",
+                                       "memmove",     "memset",   "size_t", "ptrdiff_t", "wchar_t",
+                                       "max_align_t", "offsetof", "abs",    "complex",   "I"};
+  const bool is_taken =
+      std::find(std::begin(kept), std::end(kept), name) != std::end(kept) || name.starts_with("dashpot_");
   if (is_taken) diagnostics.report<DiagnosticCode::name_is_word_of_c>(name_span, name);
   return !is_taken;
 }

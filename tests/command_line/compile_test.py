@@ -127,8 +127,9 @@ class Files(CommandTest):
         header = (self.folder / "out/word.h").read_text()
         self.assertIn("  double restrict_;  // 1 to 3 [N/m]", header)
         self.assertIn('if (i == 0) return "restrict";', header)
-        self.write("restrict.json", network('{ "spring": 1 }', "restrict"))
-        self.refused("compile", "restrict.json", "--target", "c99", code="name-is-word-of-c")
+        for word in ["main", "memcpy", "restrict"]:
+            self.write(f"{word}.json", network('{ "spring": 1 }', word))
+            self.refused("compile", f"{word}.json", "--target", "c99", code="name-is-word-of-c")
         self.dashpot("compile", "restrict.json")
         for option in [["--batch"], ["--constant-time"], ["--certificate", "c.json"]]:
             done = self.dashpot("compile", "kelvin.json", "--target", "c99", *option, status=COMMAND_LINE_WRONG)
@@ -153,7 +154,7 @@ class Files(CommandTest):
 
     def test_parameters_with_names_of_a_target(self):
         """Fails if a tunable parameter passes for a pin or a variable that is there already."""
-        for name in ["fault", "enable"]:
+        for name in ["fault", "fperiod", "enable"]:
             tunable = f'"parameters": {{ "{name}": {{ "value": "100 N/m", "tunable": true, "min": "50 N/m", "max": "200 N/m" }} }},'
             self.write("tunable.json", network(f'{{ "spring": "{name}" }}', "soft", tunable))
             self.refused("compile", "tunable.json", "--target", "hal", code="parameter-name-kept-by")

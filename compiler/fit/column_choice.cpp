@@ -312,7 +312,7 @@ class Chooser {
   // Where --columns overrules a header that says otherwise.
   void warn_of_unit(const TableColumn& column, const std::string& asked, const ReadUnit& read) {
     const std::optional<ReadUnit> stated = unit_in(*column.unit);
-    if (!stated || (stated->factor == read.factor && stated->dimension == read.dimension)) return;
+    if (stated && stated->factor == read.factor && stated->dimension == read.dimension) return;
     diagnostics_.report<DiagnosticCode::recording_unit_overruled>({}, column.title, *column.unit, asked);
   }
 

@@ -31,12 +31,19 @@ std::string exponent_behind(std::string_view symbol) {
   return !exponent.empty() && is_digit(exponent.front()) ? "^" + exponent : exponent;
 }
 
+// Between a number's digits; three of them behind it may be thousands.
+void note_on_comma(const std::string& before, const std::string& behind, Diagnostics& diagnostics) {
+  const std::size_t digits = std::min(behind.find_first_not_of("0123456789"), behind.size());
+  if (digits == 3) diagnostics.note<DiagnosticCode::write_either>({}, before + behind, before + "." + behind);
+  else diagnostics.note<DiagnosticCode::decimal_point>({});
+}
+
 void report_unit_fault(const ValueDecl& decl, std::size_t unit_begin, const UnitFault& fault,
                        Diagnostics& diagnostics) {
   const std::string unit = decl.text.substr(unit_begin);
   if (fault.kind == UnitFault::Kind::malformed) {
     diagnostics.report<DiagnosticCode::malformed_unit>(decl.span, excerpt(unit));
-    if (unit.starts_with(',')) diagnostics.note<DiagnosticCode::decimal_point>({});
+    if (unit.starts_with(',')) note_on_comma(decl.text.substr(0, unit_begin), unit.substr(1), diagnostics);
     return;
   }
   const Span place = part_of(decl, unit_begin + fault.begin, unit_begin + fault.end);

@@ -1,5 +1,7 @@
 #include "network/read_value.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -27,6 +29,12 @@ bool is_of_other_motion(const Dimension& x, const Dimension& y) {
                      [&](const auto& pair) { return pair == std::pair(x, y) || pair == std::pair(y, x); });
 }
 
+// "2 N/m" for "2", "(2 * n) * (1 N/m)" for "2 * n".
+std::string with_unit(const ValueDecl& decl, const std::string& unit, const NameScope& scope) {
+  return is_expression(decl, scope) ? fmt::format("({}) * (1 {})", excerpt(decl.text), unit)
+                                    : excerpt(decl.text) + " " + unit;
+}
+
 // "5 N m/rad" for "5 N m", "(K * r^2) / 1 rad" for "K * r^2".
 std::string per_radian(const ValueDecl& decl, const NameScope& scope) {
   return is_expression(decl, scope) ? "(" + excerpt(decl.text) + ") / 1 rad" : excerpt(decl.text) + "/rad";
@@ -41,8 +49,8 @@ void report_wrong_unit(const ValueDecl& decl, const Dimension& found, const Expe
       decl.span, excerpt(decl.text), describe(found), expected.taker,
       describe(expected.dimension) + (is_time_by_share ? " such as '50 us'" : ""));
   const bool rotates = expected.port_motion == motion::rotation;
-  if (found == dimensions::number && is_quantity(decl) && !is_share)
-    diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + " " + unit_of(expected.dimension));
+  if (found == dimensions::number && (is_quantity(decl) || is_expression(decl, scope)) && !is_share)
+    diagnostics.note<DiagnosticCode::write_instead>({}, with_unit(decl, unit_of(expected.dimension), scope));
   else if (expected.dimension.radian < 0 && product(found, power(dimensions::angle, -1)) == expected.dimension)
     diagnostics.note<DiagnosticCode::write_instead>({}, per_radian(decl, scope));
   else if (is_of_other_motion(found, expected.dimension))

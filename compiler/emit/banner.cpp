@@ -108,8 +108,8 @@ void describe_tunables(const UpdateLaw& law, const std::string& damping_unit, st
   facts.push_back("tunable: " + names);
   facts.push_back(
       "  set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs "
-      "can pay; but the force of the last sample is still held, so call it right after step() and give that sample "
-      "once more, before the tool has moved");
+      "can pay; but the force of the last sample is still held, so call it right after step() and take the command "
+      "from output() of the same sample");
   facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake.text));
   if (!elements.empty())
     facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);

@@ -30,9 +30,11 @@ std::vector<std::string> set_of(const UpdateLaw& law, const std::vector<std::str
     return {"// No parameter of this network can be set while it runs.",
             "unsigned set(const parameters&) noexcept { return 0; }"};
   std::vector<std::string> lines = {
-      "// Right after a sample, which is then given once more: the force from before is held no longer, and the change",
-      "// injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was",
-      "// no number and is as it was.", "unsigned set(const parameters& wanted) noexcept {", "  update();"};
+      "// Right after step(), the command then being that of output() with the same sample and without update(): so "
+      "the",
+      "// force from before is held no longer, and the change injects no energy. Bit i of the result: parameter i was",
+      "// beyond its range and is at its bound now, or it was no number and is as it was.",
+      "unsigned set(const parameters& wanted) noexcept {", "  update();"};
   for (const std::string& line : taken_values(law)) lines.push_back("  " + line);
   for (const std::string& line : program) lines.push_back("  " + line);
   for (const char* line : {"  return clamped;", "}"}) lines.push_back(line);

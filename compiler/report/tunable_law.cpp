@@ -45,8 +45,9 @@ std::string tunable_law_html(const Compilation& c) {
   const TunableTables& tables = *c.law.tunable;
   const std::size_t states = cost_of(c.law, c.law.output).states;
   std::string html =
-      "<p>The constants follow the parameters: <code>set()</code> takes the law to others right after a sample, which "
-      "is then given once more, and so injects no energy. Everything else on this page holds for their defaults.</p>\n";
+      "<p>The constants follow the parameters: <code>set()</code> takes the law to others right after a sample, and "
+      "injects no energy where the command is then that of <code>output()</code> with that sample. Everything else on "
+      "this page holds for their defaults.</p>\n";
   html += parameters_table(tables, c.network);
   html += "<p>The brake's <i>b</i> follows " + escaped(tables.brake.text) + ".";
   if (!tables.mesh_elements.empty())

@@ -21,8 +21,8 @@
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: skin_friction (0 to 3 N), muscle_friction (0 to 3 N), muscle_stiffness (100 to 4000 N/m)
 //   set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs
-//   can pay; but the force of the last sample is still held, so call it right after step() and give that sample
-//   once more, before the tool has moved
+//   can pay; but the force of the last sample is still held, so call it right after step() and take the command
+//   from output() of the same sample
 //   b [N·s/m] follows drag
 // cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
 //   and at most 11370 additions, multiplications and divisions for the coupled slips
@@ -186,9 +186,9 @@ class layers_tunable {
     return now;
   }
 
-  // Right after a sample, which is then given once more: the force from before is held no longer, and the change
-  // injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
-  // no number and is as it was.
+  // Right after step(), the command then being that of output() with the same sample and without update(): so the
+  // force from before is held no longer, and the change injects no energy. Bit i of the result: parameter i was
+  // beyond its range and is at its bound now, or it was no number and is as it was.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;

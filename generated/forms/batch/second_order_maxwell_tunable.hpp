@@ -20,8 +20,8 @@
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
 //   set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs
-//   can pay; but the force of the last sample is still held, so call it right after step() and give that sample
-//   once more, before the tool has moved
+//   can pay; but the force of the last sample is still held, so call it right after step() and take the command
+//   from output() of the same sample
 //   b [N·s/m] follows B1 + damper_3
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 15 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers are kept
@@ -167,9 +167,9 @@ class second_order_maxwell_tunable {
     return {brake, force};
   }
 
-  // Right after a sample, which is then given once more: the force from before is held no longer, and the change
-  // injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
-  // no number and is as it was.
+  // Right after step(), the command then being that of output() with the same sample and without update(): so the
+  // force from before is held no longer, and the change injects no energy. Bit i of the result: parameter i was
+  // beyond its range and is at its bound now, or it was no number and is as it was.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;

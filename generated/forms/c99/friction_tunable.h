@@ -22,8 +22,8 @@
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs
-//   can pay; but the force of the last sample is still held, so call it right after step() and give that sample
-//   once more, before the tool has moved
+//   can pay; but the force of the last sample is still held, so call it right after step() and take the command
+//   from output() of the same sample
 //   b [N·s/m] follows damper_3
 // cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 additions, 1 multiplications, 1 guards against subnormal numbers; 9 numbers are kept between
@@ -321,8 +321,8 @@ static inline double friction_tunable_parameter(const friction_tunable *self, in
   return 0;
 }
 
-// Parameters in turn, right after a sample, which is then given once more: the force from before is held no longer, and
-// the change injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
+// Parameters in turn, right after friction_tunable_step(), the command then being that of friction_tunable_output() with the same
+// sample and without friction_tunable_update(): so the force from before is held no longer, and the change injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
 // no number and is as it was. What waits for friction_tunable_update() belongs to the parameters before.
 static inline unsigned friction_tunable_set_values(friction_tunable *self, const double *wanted) {
   friction_tunable_update(self);

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <iterator>
+#include <set>
+
 #include "emit/banner.hpp"
 #include "emit/cpp_batch.hpp"
 #include "emit/cpp_program.hpp"
@@ -42,46 +45,18 @@ void describe_outputs(const UpdateLaw& law, CodeModel& model) {
                               cpp_literal(law.damping, law.scalar))}});
 }
 
-// What the template and the lines of a batch declare.
-std::set<std::string> names_in_batch(const std::string& name) {
-  return {name + "_batch",
-          name + "_batch_storage",
-          name + "_points",
-          "advances",
-          "begin",
-          "block",
-          "clamped",
-          "dampings",
-          "forces",
-          "gives_commands",
-          "i",
-          "lane",
-          "number",
-          "point",
-          "points",
-          "points_from",
-          "positions",
-          "put",
-          "reset_point",
-          "run",
-          "sampled",
-          "size",
-          "state",
-          "state_of",
-          "states",
-          "storage",
-          "storage_size",
-          "tunables",
-          "value",
-          "values",
-          "vector",
-          "velocities",
-          "wanted"};
-}
+// What the template and the lines of a batch declare, beside its classes.
+constexpr const char* names_in_batches[] = {
+    "advances",       "begin",     "block",    "clamped",     "dampings",   "forces",
+    "gives_commands", "i",         "lane",     "number",      "point",      "points",
+    "points_from",    "positions", "put",      "reset_point", "run",        "sampled",
+    "size",           "state",     "state_of", "states",      "storage",    "storage_size",
+    "tunables",       "value",     "values",   "vector",      "velocities", "wanted"};
 
 CodeModel batch_model(const Compilation& c) {
-  const std::string& name = c.network.name;
-  const UpdateLaw law = apart_from(names_in_batch(name), c.law);
+  std::set<std::string> taken(std::begin(names_in_batches), std::end(names_in_batches));
+  for (const char* of_class : {"_batch", "_batch_storage", "_points"}) taken.insert(c.network.name + of_class);
+  const UpdateLaw law = apart_from(taken, c.law);
   const CppBatch batch = cpp_batch(law);
   CodeModel model;
   describe_file(c, model.fields);

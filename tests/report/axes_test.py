@@ -218,6 +218,7 @@ class Dragged(Pages):
     def number(self, name):
         """What the page says, as it rounds it."""
         text = self.browser.run(f"return document.getElementById('felt-{name}').textContent").replace("−", "-")
+        text = re.sub("^(-?)10(?=[⁻⁰¹²³⁴⁵⁶⁷⁸⁹])", r"\g<1>1×10", text)  # 10⁻⁴ stands without its 1
         mantissa, _, power = text.partition("×10")
         return float(mantissa) * 10.0 ** int(power.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")) or 0)
 

@@ -383,8 +383,9 @@ Certificate beyond_numbers(const SampledLoop& loop) {
 }
 
 Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
-  Certificate result = certify_in_search(law, loop, slips);
-  if (has_finite_numbers(law)) look_beyond_bound(result, law, loop, slips);
+  if (!has_finite_numbers(law)) return beyond_numbers(loop);
+  Certificate result = decided(law, loop, slips, std::nullopt);
+  look_beyond_bound(result, law, loop, slips);
   return result;
 }
 

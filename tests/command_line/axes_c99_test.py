@@ -118,7 +118,7 @@ class AxesC99Test(CommandTest):
         cls.folder_of_laws = pathlib.Path(folder.name)
 
     def laws(self):
-        """Every kind of arm that there is, maps, a gate, slips that meet, four brakes, no device; compiled once for all."""
+        """Every kind of arm, maps, a gate, slips that meet, four brakes, no device; compiled once for all."""
         if not self.compiled: self.compiled += list(self.compiled_laws())
         return self.compiled
 
@@ -184,7 +184,8 @@ class AxesC99Test(CommandTest):
             for compiler in (["gcc", "-std=c99"], [shutil.which("clang") or shutil.which("clang-19") or "clang-14", "-std=c99"]):
                 self.program(name, in_c, '#include "NAME.h"', folder, compiler, "law.c", "-o", "law")
                 self.assertEqual(self.answers(rows), told, (name, scalar, compiler))
-            self.program(name, in_c, '#include "NAME.h"', folder, ["g++", "-x", "c++", "-std=c++17"], "law.c", "-fsyntax-only")
+            self.program(name, in_c, '#include "NAME.h"', folder, ["g++", "-x", "c++", "-std=c++17"], "law.c",
+                         "-fsyntax-only")
             header = (folder / f"{name}.h").read_text()
             seen |= {part for part in ("_square_root(", "_tree_step(", "gate", "dashpot_flush_below", "_brakes = 4") if part in header}
         self.assertEqual(len(seen), 5, seen)
@@ -194,7 +195,8 @@ class AxesC99Test(CommandTest):
         for name, scalar, _, folder in self.laws():
             self.assertNotIn("#include", (folder / f"{name}.h").read_text())
             self.write("law.c", f'#include "{name}.h"' + ALL_OF_IT.replace("NAME", name).replace("SCALAR", scalar))
-            subprocess.run(["gcc", "-std=c99", "-ffreestanding", "-O2", "-fno-stack-protector", "-I", folder, "-c", "law.c"],
+            subprocess.run(["gcc", "-std=c99", "-ffreestanding", "-O2", "-fno-stack-protector", "-I", folder, "-c",
+                            "law.c"],
                            cwd=self.folder, check=True)
             undefined = subprocess.run(["nm", "-u", "law.o"], cwd=self.folder, check=True, capture_output=True, text=True).stdout
             self.assertLessEqual(set(undefined.split()) - {"U"}, {"memcpy", "memmove", "memset"})

@@ -426,12 +426,13 @@ class Json(CommandTest):
                 self.assertEqual(f"{chosen['motor_noise']:.3g}", noise)
 
     def test_no_filter_beyond_half_the_rate_is_tried(self):
-        """Fails if twice the filter's cutoff is tried where no filter has it: its numbers are none, and the command ends in a defect."""
+        """Fails if twice the filter's cutoff is tried where no filter has it, which ends the command in a defect."""
         self.write("damper.json", json.dumps({"dashpot": 1, "name": "damper", "network": {"damper": "B"},
                                               "parameters": {"B": {"value": 2, "tunable": True, "min": 0, "max": 10}}}))
         for order, cutoff in [(2, 250), (2, 300), (4, 450)]:
             self.write("filtered.json", json.dumps({
-                "dashpot_device": 1, "name": "filtered", "loop": {"rate": 1000}, "velocity": {"estimator": "butterworth", "order": order, "cutoff": cutoff},
+                "dashpot_device": 1, "name": "filtered", "loop": {"rate": 1000},
+                "velocity": {"estimator": "butterworth", "order": order, "cutoff": cutoff},
                 "brake": {"kind": "eddy_current", "max_damping": 30, "tolerance": 0.2}}))
             said = self.dashpot("check", "damper.json", "--device", "filtered.json").stderr
             self.assertIn("[felt-error]", said)

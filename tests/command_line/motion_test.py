@@ -148,9 +148,10 @@ class Motion(CommandTest):
         self.assertLess(told["error"]["rms_share"], 0.1)
 
     def test_slips_behind_a_static_curve(self):
-        """Fails if the error that is told of slips behind a static curve leaves out the curve, or the damping that the curve
-        needs for passivity, or if it depends on where the surface lies."""
-        device = self.device(loop={"delay_samples": 1}, encoder={"resolution": "2 um"}, mechanics={"damping": "0.8 N s/m"},
+        """Fails if the error that is told of slips behind a static curve leaves out the curve, or the damping that the
+        curve needs for passivity, or if it depends on where the surface lies."""
+        device = self.device(loop={"delay_samples": 1}, encoder={"resolution": "2 um"},
+                             mechanics={"damping": "0.8 N s/m"},
                              velocity={"estimator": "backward_difference", "window": 4},
                              brake={"max_damping": "10 N s/m", "coil_lag": "2 ms"})
         friction = '{ "parallel": [ { "spring": 150 }, { "series": [ { "spring": 800 }, { "slip": 0.3 } ] } ] }'

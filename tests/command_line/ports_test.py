@@ -74,10 +74,11 @@ class PortsTest(CommandTest):
 
     # If this fails, verify refuses a right law of a port whose surface lies at 0, where no constant says so.
     def test_slips_in_one_port_are_verified_without_a_device(self):
-        """Fails if a port without slips is chosen for by another rule than one with them: a certificate has one for all."""
+        """Fails if a port without slips is chosen for by another rule than one with them: a certificate has one."""
         net = self.write("mixed.json", """{ "dashpot": 1, "name": "mixed", "ports": [
             { "name": "pad", "network": { "series": [ { "slip": 0.05 }, { "spring": 400 } ] } },
-            { "name": "guide", "network": { "parallel": [ { "damper": 2 }, { "series": [ { "spring": 60 }, { "damper": 1 } ] } ] } } ] }""")
+            { "name": "guide", "network": { "parallel": [ { "damper": 2 },
+                { "series": [ { "spring": 60 }, { "damper": 1 } ] } ] } } ] }""")
         self.dashpot("compile", net, "--uncertified", "-o", ".", "--certificate", "mixed.cert.json")
         self.dashpot("verify", "mixed.cert.json", "mixed.hpp", "--allow-uncertified")
 

@@ -152,7 +152,8 @@ class WrongCommandLine(CommandTest):
 
     def test_of_simulated_time_without_an_end(self):
         """Fails if a run that no clock holds back is begun without an end: its log fills the disk."""
-        done = self.refused("run", FIG_5, "--device", PANTOGRAPH, "--fast", code="fast-without-end", status=COMMAND_LINE_WRONG)
+        done = self.refused("run", FIG_5, "--device", PANTOGRAPH, "--fast", code="fast-without-end",
+                            status=COMMAND_LINE_WRONG)
         self.assertIn("--for SECONDS", done.stderr)
         self.assertEqual(self.files(), [])
 

@@ -215,9 +215,10 @@ static inline double second_order_maxwell_parameter(const second_order_maxwell *
   return 0;
 }
 
-// Parameters in turn, right after second_order_maxwell_step(), the command then being that of second_order_maxwell_output() with the same
-// sample and without second_order_maxwell_update(): so the force from before is held no longer, and the change injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
-// no number and is as it was. What waits for second_order_maxwell_update() belongs to the parameters before.
+// Parameters in turn. Call it right after the step of a sample, and take the command from the output of that sample
+// without another update: so the force from before is held no longer, and the change injects no energy. Bit i of the
+// result: parameter i was beyond its range and is at its bound now, or it was no number and is as it was. What waits
+// for an update belongs to the parameters before.
 static inline unsigned second_order_maxwell_set_values(second_order_maxwell *self, const double *wanted) {
   (void)self;
   (void)wanted;

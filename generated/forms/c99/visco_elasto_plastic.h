@@ -219,9 +219,10 @@ static inline double visco_elasto_plastic_parameter(const visco_elasto_plastic *
   return 0;
 }
 
-// Parameters in turn, right after visco_elasto_plastic_step(), the command then being that of visco_elasto_plastic_output() with the same
-// sample and without visco_elasto_plastic_update(): so the force from before is held no longer, and the change injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
-// no number and is as it was. What waits for visco_elasto_plastic_update() belongs to the parameters before.
+// Parameters in turn. Call it right after the step of a sample, and take the command from the output of that sample
+// without another update: so the force from before is held no longer, and the change injects no energy. Bit i of the
+// result: parameter i was beyond its range and is at its bound now, or it was no number and is as it was. What waits
+// for an update belongs to the parameters before.
 static inline unsigned visco_elasto_plastic_set_values(visco_elasto_plastic *self, const double *wanted) {
   (void)self;
   (void)wanted;

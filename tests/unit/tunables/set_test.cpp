@@ -124,7 +124,8 @@ TEST(Set, injects_no_energy_into_slips_outside_trees_behind_a_contact) { expect_
 // round, so that it adds up where it is below 0.
 double taken_by_waiting_for_changes(bool holds_new_force) {
   const TunableLaw compiled(R"({ "dashpot": 1, "name": "spring",
-    "parameters": { "K": { "value": 1000, "tunable": true, "min": 100, "max": 1000 } }, "network": { "spring": "K" } })");
+    "parameters": { "K": { "value": 1000, "tunable": true, "min": 100, "max": 1000 } },
+    "network": { "spring": "K" } })");
   constexpr double depth = 0.01, back = 0.0015, own_damping = 0.6;  // [m], [m], [N·s/m]
   Law law(compiled.law());
   double position = 0, held = 0, taken = 0;

@@ -93,8 +93,8 @@ double Magnitudes::spring_of(std::size_t force) const {
   const double decay = own != values_[force].shares.end() ? own->second : 0;
   const std::size_t surface = first(law_.rest_position);
   if (!(decay > 0 && decay < 1) || errors_.count(force) > 0 || force == surface) return 0;
-  const std::map<std::size_t, double>& driven = values_[force].shares;
-  const std::map<std::size_t, double> change = plus(values_[surface], symbol(surface), -1).shares;
+  const auto& driven = values_[force].shares;
+  const auto change = plus(values_[surface], symbol(surface), -1).shares;
   const auto widest = std::max_element(change.begin(), change.end(), [](const auto& a, const auto& b) {
     return std::abs(a.second) < std::abs(b.second);
   });

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <boost/container/flat_map.hpp>
+#include <boost/container/small_vector.hpp>
 #include <map>
 #include <optional>
 #include <vector>
@@ -17,7 +19,10 @@ namespace dashpot::compiler {
 // told apart. Beside it an interval, which knows what a case has decided; rounding does not take a number beyond a
 // bound that is a number too.
 struct Amount {
-  std::map<std::size_t, double> shares;
+  // c by x, of which there are few.
+  boost::container::flat_map<std::size_t, double, std::less<std::size_t>,
+                             boost::container::small_vector<std::pair<std::size_t, double>, 8>>
+      shares;
   double constant = 0;
   double rest = 0;
   bool has_kept_share = false;  // depends on the share of all forces that a shedding law keeps

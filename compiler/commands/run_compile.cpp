@@ -15,10 +15,12 @@
 #include "emit/response_test.hpp"
 #include "emit/write_files.hpp"
 #include "insist.hpp"
+#include "linear/reach.hpp"
 #include "network/law.hpp"
 #include "network/tree.hpp"
 #include "verify/axes_certificate_file.hpp"
 #include "verify/certificate_file.hpp"
+#include "verify/verify_header.hpp"
 #include "law/law_text.hpp"
 
 namespace dashpot::compiler {
@@ -166,6 +168,13 @@ std::string proof_text(const Compilation& c, Diagnostics& diagnostics) {
   return "";
 }
 
+void warn_of_unverifiable(const Compilation& c, Diagnostics& diagnostics) {
+  const std::size_t nodes = largest_part(c.network).internal.size();
+  if (nodes > most_verified_nodes)
+    diagnostics.report<DiagnosticCode::certificate_beyond_verify>(c.network.name_span, c.network.name, nodes,
+                                                                  most_verified_nodes);
+}
+
 ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& diagnostics, StageTimes& times) {
   if (!target_has_all(options, diagnostics)) return ExitStatus::command_line_wrong;
   times.enter("files");
@@ -216,6 +225,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       if (options.uncertified) warn_of_uncertified(*compilation, options.choices, diagnostics);
       axes.one = true;
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
+      if (options.certificate) warn_of_unverifiable(*compilation, diagnostics);
       if (options.certificate)
         certificate = certificate_text(*compilation, options.choices, file->text(), device.text, emitted->front().text);
       if (options.proof) proof = proof_text(*compilation, diagnostics);

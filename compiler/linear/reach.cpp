@@ -1,8 +1,8 @@
 #include "linear/reach.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "linear/modal_reduction.hpp"
 #include "network/law.hpp"
 
 namespace dashpot::compiler {
@@ -24,19 +24,24 @@ bool are_near(const Network& network, std::string_view kinds, Diagnostics& diagn
 }
 
 bool are_small(const Network& network, std::size_t most_nodes, Diagnostics& diagnostics) {
-  std::vector<std::size_t> elements;
-  for (std::size_t i = 0; i < network.elements.size(); ++i)
-    if (network.elements[i].has_effect) elements.push_back(i);
-  for (const Part& part : independent_parts(network, elements, tool, ground)) {
-    if (part.internal.size() <= most_nodes) continue;
-    const Element& first = network.elements[part.elements.front()];
-    diagnostics.report<DiagnosticCode::part_too_large>(first.span, first.name, part.internal.size(), most_nodes);
-    return false;
-  }
-  return true;
+  const Part largest = largest_part(network);
+  if (largest.internal.size() <= most_nodes) return true;
+  const Element& first = network.elements[largest.elements.front()];
+  diagnostics.report<DiagnosticCode::part_too_large>(first.span, first.name, largest.internal.size(), most_nodes);
+  return false;
 }
 
 }  // namespace
+
+Part largest_part(const Network& network) {
+  std::vector<std::size_t> elements;
+  for (std::size_t i = 0; i < network.elements.size(); ++i)
+    if (network.elements[i].has_effect) elements.push_back(i);
+  Part largest;
+  for (Part& part : independent_parts(network, elements, tool, ground))
+    if (part.internal.size() > largest.internal.size()) largest = std::move(part);
+  return largest;
+}
 
 bool is_within_reach(const Network& network, Diagnostics& diagnostics, std::size_t most_nodes) {
   const bool springs = are_near<Spring>(network, "springs", diagnostics);

@@ -1,6 +1,7 @@
 // What the extended precision and the dense elimination of a part carry.
 #pragma once
 
+#include "linear/modal_reduction.hpp"
 #include "network/network.hpp"
 #include "source/diagnostic.hpp"
 
@@ -10,6 +11,9 @@ namespace dashpot::compiler {
 inline constexpr double widest_spread = 1e24;
 // Inner nodes that springs, dampers and slips join without passing tool or ground: the work grows with their cube.
 inline constexpr std::size_t most_inner_nodes = 400;
+
+// Of the parts that are eliminated together, the one with most inner nodes; without elements where none has any.
+Part largest_part(const Network& network);
 
 // Refuses, with the elements, values further apart, and parts of more nodes.
 bool is_within_reach(const Network& network, Diagnostics& diagnostics, std::size_t most_nodes = most_inner_nodes);

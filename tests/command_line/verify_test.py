@@ -466,6 +466,8 @@ class Verify(CommandTest):
         self.write("header.hpp", header)
         self.write("certificate.json", certificate)
         self.refused("verify", FIG_5, "header.hpp", code="no-certificate")
+        swapped = self.refused("verify", "header.hpp", "certificate.json", code="no-certificate").stderr
+        self.assertIn("takes the certificate first, then the header", swapped)
         self.refused("verify", "certificate.json", FIG_5, code="no-emitted-header")
         wrong = json.loads(certificate)
         wrong["network_file"] = KELVIN
@@ -554,6 +556,9 @@ class Verify(CommandTest):
         told["network_file"] = json.dumps({"dashpot": 1, "name": "second_order_maxwell", "elements": rungs})
         refusal = self.verify(header, json.dumps(told), "large", INPUT_REFUSED).stderr
         self.assertIn("has 201 inner nodes; at most 200 are eliminated together [part-too-large]", refusal)
+        self.write("large.json", told["network_file"])
+        warning = self.dashpot("compile", "large.json", "--certificate", "large_certificate.json", "-o", "large").stderr
+        self.assertIn("'dashpot verify', which takes at most 200, will refuse it [certificate-beyond-verify]", warning)
 
     def test_one_network_a_certificate(self):
         """Fails if a certificate is written that speaks of the last of several networks only."""

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <dashpot/estimators/estimator_names.hpp>
 #include <functional>
+#include <future>
 #include <initializer_list>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -616,23 +618,52 @@ const FeltError in_the_band{
     },
     true};
 
-// Of the network compiled for this device or another: the error, if it is noticeably less than that of `c`, and what is
-// felt errs nowhere by more than it does anywhere with `c`.
+// The network compiled otherwise, once for each change whatever is asked of it.
+class Trials {
+ public:
+  explicit Trials(const Network& network) : network_(network) {}
+
+  // All at the same time, for `with` to find.
+  void make(const std::vector<MendedDevice>& changes, const Choices& choices) {
+    std::map<std::string, std::future<std::optional<Compilation>>> running;
+    for (const MendedDevice& other : changes)
+      if (made_.count(other.change) == 0)
+        running.emplace(other.change, std::async(std::launch::async, compiled, network_, choices, other.device));
+    for (auto& [change, trial] : running) made_.emplace(change, trial.get());
+  }
+
+  // `change` tells one trial from another.
+  const std::optional<Compilation>& with(const std::string& change, const Choices& choices, const Device& device) {
+    const auto found = made_.find(change);
+    return found != made_.end() ? found->second
+                                : made_.emplace(change, compiled(network_, choices, device)).first->second;
+  }
+
+ private:
+  const Network& network_;
+  std::map<std::string, std::optional<Compilation>> made_;
+};
+
+// Of the network compiled for this device or another: what errs noticeably less than `c`, and where what is felt errs
+// nowhere by more than it does anywhere with `c`.
 class Improvement {
  public:
-  Improvement(const Compilation& c, const FeltError& error) : c_(c), error_(error), limit_(noticeably * *error.of(c)) {}
+  Improvement(const Compilation& c, const FeltError& error, Trials& trials)
+      : c_(c), error_(error), trials_(trials), limit_(noticeably * *error.of(c)) {}
 
-  std::optional<Compilation> by(const Choices& choices, const Device& device) const {
-    std::optional<Compilation> again = compiled(c_.network, choices, device);
-    if (!again || (c_.certificate.certified && !again->certificate.certified)) return std::nullopt;
+  // Null where it does not.
+  const Compilation* by(const std::string& change, const Choices& choices, const Device& device) const {
+    const std::optional<Compilation>& again = trials_.with(change, choices, device);
+    if (!again || (c_.certificate.certified && !again->certificate.certified)) return nullptr;
     const std::optional<double> error = error_.of(*again);
-    if (!error || !(*error < limit_) || felt_error(*again).share > felt_error(c_).share) return std::nullopt;
-    return again;
+    if (!error || !(*error < limit_) || felt_error(*again).share > felt_error(c_).share) return nullptr;
+    return &*again;
   }
 
  private:
   const Compilation& c_;
   const FeltError& error_;
+  Trials& trials_;
   double limit_;
 };
 
@@ -644,28 +675,30 @@ double smallest_brake_worth_having(const Compilation& c, const Remedies& remedie
 }
 
 // What would err less: another choice, else another device.
-void tell_what_errs_less(const Compilation& c, const Choices& choices, const FeltError& error,
+void tell_what_errs_less(const Compilation& c, const Choices& choices, const FeltError& error, Trials& trials,
                          Diagnostics& diagnostics) {
-  const Improvement improvement(c, error);
+  const Improvement improvement(c, error, trials);
   std::vector<OtherChoices> others = other_choices(c, choices);
   if (c.decomposition.choice().name != "virtual") {
     others.push_back({choices, "--decomposition virtual"});
     others.back().choices.decomposition = "virtual";
   }
   for (const OtherChoices& other : others)
-    if (const auto again = improvement.by(other.choices, *c.device))
+    if (const Compilation* again = improvement.by(other.options, other.choices, *c.device))
       return error.tell_choice(c, *again, other.options, diagnostics);
   if (c.law.tunable && !error.is_soon_tried) return;
   const PortUnits units = port_units(c.network.port_motion);
   Device faster = *c.device;
+  const auto at_rate = [&] { return fmt::format("at a rate of {:.6g} Hz", 1 / faster.description.loop.sample_period); };
   std::vector<MendedDevice> changes = mended(*c.device);
   if (error.is_soon_tried) {
     faster.description.loop.sample_period /= 2;
-    changes.push_back({fmt::format("at a rate of {:.6g} Hz", 1 / faster.description.loop.sample_period), faster});
+    changes.push_back({at_rate(), faster});
   }
   // Compiled again: less may then be added to the brake for passivity, and what is added is felt.
+  trials.make(changes, choices);
   std::erase_if(changes, [&](MendedDevice& other) {
-    const std::optional<Compilation> again = improvement.by(choices, other.device);
+    const Compilation* again = improvement.by(other.change, choices, other.device);
     if (again) other.error = *error.of(*again), other.motor_noise = again->decomposition.choice().motor_noise;
     return !again;
   });
@@ -674,7 +707,7 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
         {}, changes_text(std::move(changes), c.decomposition.choice(), units.force));
   for (int doubling = error.is_soon_tried ? 2 : 1; doubling <= 4; ++doubling) {
     faster.description.loop.sample_period /= 2;
-    if (const auto again = improvement.by(choices, faster))
+    if (const Compilation* again = improvement.by(at_rate(), choices, faster))
       return diagnostics.note<DiagnosticCode::errs_less_at_another_rate>({}, 1 / faster.description.loop.sample_period,
                                                                          in_percent(*error.of(*again)));
   }
@@ -682,10 +715,10 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
   for (int doubling = 1; doubling <= 4; ++doubling) {
     const double most = std::ldexp(own > 0 ? own : smallest_brake_worth_having(c, Remedies(c, choices)), doubling);
     if (most == 0) break;
-    if (const auto again = improvement.by(choices, with_brake(*c.device, most)))
-      return diagnostics.note<DiagnosticCode::errs_less_with_a_brake>({}, again->port.max_damping().value_or(0),
-                                                                      units.damping, brake_as_written(*c.device, most),
-                                                                      in_percent(*error.of(*again)));
+    const std::string brake = brake_as_written(*c.device, most);
+    if (const Compilation* again = improvement.by(brake, choices, with_brake(*c.device, most)))
+      return diagnostics.note<DiagnosticCode::errs_less_with_a_brake>(
+          {}, again->port.max_damping().value_or(0), units.damping, brake, in_percent(*error.of(*again)));
   }
   diagnostics.note<DiagnosticCode::errs_less_nowhere>({}, own > 0 ? "up to 16 times its brake" : "a brake");
 }
@@ -694,6 +727,7 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
 
 void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   if (!c.device) return;
+  Trials trials(c.network);
   const SlipDecomposition& slips = c.decomposition.slips;
   if (slips.error > choices.tolerance * (1 + 1e-9)) {
     diagnostics.report<DiagnosticCode::felt_error_behind_slips>(c.network.name_span, in_percent(slips.error),
@@ -701,7 +735,7 @@ void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostic
     const auto [mildest, worst] = extreme_runs(slips.runs);
     diagnostics.note<DiagnosticCode::worst_and_mildest_run>({}, worst.motion, in_percent(worst.error), mildest.motion,
                                                             in_percent(mildest.error));
-    tell_what_errs_less(c, choices, where_slips_give_way, diagnostics);
+    tell_what_errs_less(c, choices, where_slips_give_way, trials, diagnostics);
     diagnostics.note<DiagnosticCode::runs_of_ones_own>({});
   }
   const Candidate& choice = c.decomposition.choice();
@@ -710,7 +744,7 @@ void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostic
                                                  c.device->name, in_percent(choices.tolerance));
   // Where damping is missing, what would do is told with the error that is felt then.
   if (c.certificate.certified || c.certificate.bound.proof == Proof::none)
-    tell_what_errs_less(c, choices, in_the_band, diagnostics);
+    tell_what_errs_less(c, choices, in_the_band, trials, diagnostics);
 }
 
 void tell_what_is_proved_at_the_limit(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {

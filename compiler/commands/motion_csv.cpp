@@ -97,6 +97,7 @@ class CsvTable {
     const auto position = column(columns, header, fitting::Role::position, motion);
     const auto velocity = column(columns, header, fitting::Role::velocity, motion);
     if (failed_) return std::nullopt;
+    warn_of_no_unit(columns[time->index], columns[position->index], header[position->index].span);
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < header.size(); ++i) {
       if (i == time->index || i == position->index || (velocity && i == velocity->index)) continue;
@@ -312,6 +313,12 @@ class CsvTable {
       motion.kind_span = header[found.front()].span;
     }
     return Column{found.front(), unit.factor};
+  }
+
+  // Milliseconds beside millimetres that are not told as such are common.
+  void warn_of_no_unit(const fitting::TableColumn& time, const fitting::TableColumn& position, const Span& span) {
+    if (!time.unit || position.unit) return;
+    diagnostics_.report<DiagnosticCode::csv_unit_left_out>(span, position.title, *time.unit);
   }
 
   bool has_fields(const std::vector<Cell>& row, std::size_t count) {

@@ -36,8 +36,8 @@ struct Motion {
   double period_error = 0;       // what the rounding of the times leaves open [s]
 };
 
-// In: a table as `dashpot fit` reads it, separated by commas, semicolons, tabs or blanks, decimals behind a point or a
-// comma, lines of other text before its header. The header names time and position, perhaps velocity, in any order
+// In: a table as `dashpot fit` reads it, separated by commas, semicolons, bars, tabs or blanks, decimals behind a point
+// or a comma, lines of other text before its header. The header names time and position, perhaps velocity, in any order
 // among other columns and under any of the names that `fit` knows, with a unit beside or below the name ("position
 // [mm]") or, without one, in SI. Blank lines do not count. The page of `dashpot report` reads by the same rules
 // (report/page/table.js). Refuses: missing or repeated columns, rows of another length, cells that are no finite

@@ -13,8 +13,8 @@
 namespace dashpot::compiler::fitting {
 namespace {
 
-constexpr Dialect dialects[] = {{',', false}, {';', false}, {'\t', false}, {' ', false},
-                                {';', true},  {'\t', true}, {' ', true}};
+constexpr Dialect dialects[] = {{',', false}, {';', false}, {'|', false}, {'\t', false}, {' ', false},
+                                {';', true},  {'|', true},  {'\t', true}, {' ', true}};
 
 bool is_blank(char byte) { return byte == ' ' || byte == '\t'; }
 
@@ -55,11 +55,11 @@ bool is_row(const std::vector<std::string_view>& fields, const Dialect& dialect)
 }
 
 // How many lines of the commonest width are rows, and how wide they are; whole rows count double.
-struct Fit {
+struct RowCount {
   std::size_t score = 0, width = 0;
 };
 
-Fit fit_of(const Dialect& dialect, const std::vector<HeadLine>& head) {
+RowCount row_count(const Dialect& dialect, const std::vector<HeadLine>& head) {
   std::map<std::size_t, std::size_t> score_of_width;
   for (const HeadLine& line : head) {
     const std::vector<std::string_view> fields = fields_of(line.text, dialect);
@@ -68,7 +68,7 @@ Fit fit_of(const Dialect& dialect, const std::vector<HeadLine>& head) {
         std::all_of(fields.begin(), fields.end(), [&](auto field) { return number_of(field, dialect).has_value(); });
     score_of_width[fields.size()] += is_whole ? 2 : 1;
   }
-  Fit best;
+  RowCount best;
   for (const auto& [width, score] : score_of_width)
     if (score > best.score) best = {score, width};
   return best;
@@ -143,10 +143,10 @@ bool is_unit(std::string_view field) {
 }
 
 std::optional<Dialect> dialect_of(const std::vector<HeadLine>& head) {
-  Fit best;
+  RowCount best;
   std::optional<Dialect> found;
   for (const Dialect& dialect : dialects)
-    if (const Fit fit = fit_of(dialect, head); fit.score > best.score) best = fit, found = dialect;
+    if (const RowCount rows = row_count(dialect, head); rows.score > best.score) best = rows, found = dialect;
   return found;
 }
 
@@ -195,9 +195,9 @@ Span place_of(const std::string& path, std::string_view line, std::size_t number
 std::optional<TableShape> table_shape(const std::string& path, const std::vector<HeadLine>& head, bool has_header,
                                       Diagnostics& diagnostics) {
   TableShape shape;
-  Fit best;
+  RowCount best;
   for (const Dialect& dialect : dialects)
-    if (const Fit fit = fit_of(dialect, head); fit.score > best.score) best = fit, shape.dialect = dialect;
+    if (const RowCount rows = row_count(dialect, head); rows.score > best.score) best = rows, shape.dialect = dialect;
   if (best.score == 0) {
     const HeadLine* const first = head.empty() ? nullptr : &head.front();
     const Span place = first ? place_of(path, first->text, first->number, first->text, diagnostics) : Span{};

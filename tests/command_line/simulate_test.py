@@ -208,7 +208,8 @@ class Table(SimulateTest):
         that does not fit is taken."""
         rows = [(n, (7 * n) % 40) for n in range(60)]  # [ms], [mm]
         plain = self.simulated("kelvin.json", table([(f"{t / 1000:.3f}", repr(u * 1e-3)) for t, u in rows]))
-        lines = {"time [ms],position [mm]": ",", "t [ms];x_mm": ";", "elapsed time/ms\tdepth (mm)": "\t", "# t[ms] disp[mm]": " "}
+        lines = {"time [ms],position [mm]": ",", "t [ms];x_mm": ";", "elapsed time/ms\tdepth (mm)": "\t",
+                 "# t[ms] disp[mm]": " ", "time [ms] | position [mm]": "|"}
         for header, separator in lines.items():
             text = header + "\n" + "".join(f"{t}{separator}{u}\n" for t, u in rows)
             for before in ["", "#\n# rig no. 3\nby hand, twice\n"]:
@@ -224,6 +225,16 @@ class Table(SimulateTest):
         self.refuses(table([(0, 0)], "time [mm],position"), "recording-wrong-unit")
         told = self.refuses(table([(0, 0), (0.001, 1)], "time,position [deg]"), "csv-other-motion").stderr
         self.assertTrue(told.startswith("motion.csv:1:6: error: the motion is in radians; the network's tool moves in metres"), told)
+
+    def test_a_unit_that_is_left_out(self):
+        """Fails if millimetres beside milliseconds are taken for metres without a word, or a table without units is
+        warned of."""
+        warning = "motion.csv:1:11: warning: column 'position' has no unit, while that of time has 'ms'"
+        headers = {"time [ms],position": True, "time,position": False, "time [ms],position [mm]": False}
+        for header, warned in headers.items():
+            self.write("motion.csv", table([(0, 0), (1, 1)], header))
+            told = self.dashpot("simulate", "kelvin.json", "--input", "motion.csv").stderr
+            self.assertEqual(warning in told, warned, told)
 
     def test_missing_columns(self):
         """Fails if a table without time or position is given a meaning; both are named where both are missing."""

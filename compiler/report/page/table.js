@@ -1,6 +1,8 @@
-// A table of numbers as `dashpot simulate` and `dashpot fit` read it: commas, semicolons, tabs or blanks between the fields,
-// decimals behind a point or a comma, lines of other text before the header, units beside or below the names.
-const table_dialects = [[',', false], [';', false], ['\t', false], [' ', false], [';', true], ['\t', true], [' ', true]]
+// A table of numbers as `dashpot simulate` and `dashpot fit` read it: commas, semicolons, bars, tabs or blanks between
+// the fields, decimals behind a point or a comma, lines of other text before the header, units beside or below the
+// names.
+const table_dialects = [[',', false], [';', false], ['|', false], ['\t', false], [' ', false],
+  [';', true], ['|', true], ['\t', true], [' ', true]]
   .map(([delimiter, decimal_comma]) => ({ delimiter, decimal_comma }));
 const head_lines = 200;  // tell how the table is written
 

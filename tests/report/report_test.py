@@ -209,7 +209,8 @@ class Pages(unittest.TestCase):
         self.browser.run(f"const part = document.querySelector('{says}'); window.said = '';"
                          "new MutationObserver(() => { said += part.textContent; })"
                          ".observe(part, { attributes: true, childList: true, subtree: true, characterData: true })")
-        self.browser.move(chart, [(int(box[0] * i / 8), int(box[1] * j / 4)) for j in range(-3, 4) for i in range(-7, 8)])
+        self.browser.move(chart, [(int(box[0] * i / 8), int(box[1] * j / 4))
+                                  for j in (-2, 0, 2) for i in range(-6, 7, 3)])
         self.assertRegex(self.browser.run("return said"), "[0-9]", chart)
 
     def assert_all_used(self):
@@ -386,6 +387,7 @@ class Pages(unittest.TestCase):
                 table("t;x (µm)", lambda t, u: f"{t:.3f};{1e6 * u!r}".replace(".", ",")),
                 table("time\tdisplacement", lambda t, u: f"{1000 * t:.0f}\t{100 * u!r}", "a rig, 3 runs\n\n").replace("ment\n", "ment\nms\tcm\n"),
                 table("# time[ms] position[m] velocity[mm/min]", lambda t, u: f"{1000 * t:.0f}  {u!r}  7.25"),
+                table("t [ms] | x [mm]", lambda t, u: f"{1000 * t:.0f} | {1000 * u!r}"),
                 table("note,time,position", lambda t, u: f"a,{t:.3f},+{abs(u):.6f}"),
                 table("time,position,u", lambda t, u: f"{t:.3f},{u!r},9"),
                 table("time,position", lambda t, u: f"{t + 1e4:.3f},{u:.7e}"),
@@ -478,8 +480,9 @@ class Pages(unittest.TestCase):
                                      "slider.dispatchEvent(new Event('input'))")
                     self.assert_simulates_again(network)
                 rows = [line.split(",") for line in wiggle(1000, True).splitlines()]
-                names = [name for name, *_ in self.tunables()]
-                values = [[repr(least + (most - least) * (k % 97) / 90) for _, _, least, most in self.tunables()]
+                tunables = self.tunables()
+                names = [name for name, *_ in tunables]
+                values = [[repr(least + (most - least) * (k % 97) / 90) for _, _, least, most in tunables]
                           for k in range(len(rows) - 1)]
                 self.upload("\n".join(",".join(a + b) for a, b in zip(rows, [names, *values])) + "\n")
                 self.wait_for("700 samples")

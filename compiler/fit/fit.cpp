@@ -249,7 +249,7 @@ class Fitter {
       if (!is_signed(fit_.model.terms[j])) continue;
       network.terms.push_back(fit_.model.terms[j]);
       network.weights.conservativeResize(network.weights.size() + 1);
-      network.weights[network.weights.size() - 1] = fit_.model.weights[static_cast<Index>(j)];
+      network.weights[network.weights.size() - 1] = fit_.model.weight(j);
     }
     return network;
   }
@@ -265,7 +265,7 @@ class Fitter {
       one.gain = written.gains[file];
       for (std::size_t j = 0; j < written.terms.size(); ++j)
         if (written.terms[j].kind == TermKind::offset && written.terms[j].file == file)
-          one.offset = written.weights[static_cast<Index>(j)] * one.gain;
+          one.offset = written.weight(j) * one.gain;
       if (file < fit_.left_out.size()) {
         const Block& block = whole_.blocks()[file];
         const VectorXd rows = residual(whole_, fit_.left_out[file]).segment(block.begin, block.count);
@@ -286,7 +286,7 @@ class Fitter {
       const Block& block = problem.blocks()[file];
       VectorXd sum = VectorXd::Zero(block.count);
       for (std::size_t j = 0; j < model.terms.size(); ++j)
-        sum += model.weights[static_cast<Index>(j)] * unit_column(problem.signal(file, model.curve), model.terms[j]);
+        sum += model.weight(j) * unit_column(problem.signal(file, model.curve), model.terms[j]);
       answer.segment(block.begin, block.count) = model.gains[file] * sum;
     }
     return answer;
@@ -345,7 +345,7 @@ class Fitter {
     Model network = written;
     network.gains = {1.0};
     for (std::size_t j = 0; j < network.terms.size(); ++j)
-      if (is_signed(network.terms[j])) network.weights[static_cast<Index>(j)] = 0;
+      if (is_signed(network.terms[j])) network.weight(j) = 0;
     return score_of(problem, 0, residual(problem, network), answer_of(problem, network));
   }
 

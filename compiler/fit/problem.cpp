@@ -174,7 +174,7 @@ std::size_t parameter_count(const Model& model, bool gains_are_free) {
   std::size_t count = gains_are_free ? model.gains.size() - 1 : 0;
   if (model.curve) count += model.curve->parameters().size();
   for (std::size_t j = 0; j < model.terms.size(); ++j)
-    if (model.weights[static_cast<Index>(j)] != 0) count += 1 + shape_count(model.terms[j]);
+    if (model.weight(j) != 0) count += 1 + shape_count(model.terms[j]);
   return count;
 }
 

@@ -84,6 +84,8 @@ struct Model {
   double residual_sum = 0;    // of the weighted rows
   std::optional<CurveShape> curve = {};  // behind which the terms lie; only of motions
 
+  double& weight(std::size_t term) { return weights[static_cast<Eigen::Index>(term)]; }
+  double weight(std::size_t term) const { return weights[static_cast<Eigen::Index>(term)]; }
   std::size_t count(TermKind kind) const;
 };
 

@@ -161,7 +161,7 @@ class Projection {
     for (const double gain : model_.gains) mean += gain / static_cast<double>(model_.gains.size());
     if (mean == 1) return;
     for (double& gain : model_.gains) gain /= mean;
-    for (std::size_t j = 0; j < model_.terms.size(); ++j) model_.weights[static_cast<Index>(j)] *= mean;
+    for (std::size_t j = 0; j < model_.terms.size(); ++j) model_.weight(j) *= mean;
   }
 
   const Problem& problem_;
@@ -214,13 +214,13 @@ VectorXd unknown_slope(const Problem& problem, const Model& model, const Unknown
     return slope;
   }
   if (unknown.kind == Unknown::Kind::curve) return curve_slope(problem, model, unknown);
-  const double weight = model.weights[static_cast<Index>(unknown.index)];
+  const double weight = model.weight(unknown.index);
   if (weight == 0) return VectorXd::Zero(problem.rows());
   const Term& term = model.terms[unknown.index];
   slope = weight * problem.slope(term, shape_of(unknown.kind), model.curve);
   for (std::size_t j = 0; j < model.terms.size(); ++j)
     if (unknown.kind == Unknown::Kind::time && is_initial_of(model.terms[j], term))
-      slope += model.weights[static_cast<Index>(j)] * problem.slope(model.terms[j], Shape::time, model.curve);
+      slope += model.weight(j) * problem.slope(model.terms[j], Shape::time, model.curve);
   for (std::size_t file = 0; file < model.gains.size(); ++file)
     if (model.gains[file] != 1)
       slope.segment(problem.blocks()[file].begin, problem.blocks()[file].count) *= model.gains[file];

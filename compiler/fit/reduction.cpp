@@ -25,8 +25,6 @@ constexpr std::size_t least_stretches = 4, most_stretches = 16;  // of a table
 constexpr ProjectionLimits quick{12, 1e-5};
 constexpr ProjectionLimits thorough{60, 1e-11};
 
-double weight_of(const Model& model, std::size_t j) { return model.weights[static_cast<Index>(j)]; }
-
 bool is_reducible(const Term& term) {
   return term.kind == TermKind::maxwell || term.kind == TermKind::stop || term.kind == TermKind::sliding ||
          term.kind == TermKind::springpot;
@@ -46,7 +44,7 @@ Model selection(const Model& model, const std::vector<bool>& keep) {
   Model left = without_terms(model);
   Index count = 0;
   for (std::size_t j = 0; j < model.terms.size(); ++j)
-    if (keep[j]) left.terms.push_back(model.terms[j]), left.weights[count++] = weight_of(model, j);
+    if (keep[j]) left.terms.push_back(model.terms[j]), left.weights[count++] = model.weight(j);
   left.weights.conservativeResize(count);
   return left;
 }
@@ -84,10 +82,9 @@ Model merged_in_pairs(const Model& model) {
   Index count = 0;
   for (std::size_t j = 0; j < model.terms.size(); ++j) {
     const bool pairs = j + 1 < model.terms.size() && are_neighbours(model.terms[j], model.terms[j + 1]);
-    result.terms.push_back(
-        pairs ? merged(model.terms[j], weight_of(model, j), model.terms[j + 1], weight_of(model, j + 1))
-              : model.terms[j]);
-    result.weights[count++] = weight_of(model, j) + (pairs ? weight_of(model, j + 1) : 0);
+    result.terms.push_back(pairs ? merged(model.terms[j], model.weight(j), model.terms[j + 1], model.weight(j + 1))
+                                 : model.terms[j]);
+    result.weights[count++] = model.weight(j) + (pairs ? model.weight(j + 1) : 0);
     j += pairs ? 1 : 0;
   }
   result.weights.conservativeResize(count);
@@ -250,7 +247,7 @@ class Reducer {
   Model pruned(const Model& model) const {
     std::vector<bool> keep;
     for (std::size_t j = 0; j < model.terms.size(); ++j)
-      keep.push_back(!is_reducible(model.terms[j]) || weight_of(model, j) > 0);
+      keep.push_back(!is_reducible(model.terms[j]) || model.weight(j) > 0);
     return ordered(selection(model, without_orphans(model, keep)));
   }
 
@@ -264,7 +261,7 @@ class Reducer {
     Model result = without_terms(model);
     for (std::size_t k = 0; k < order.size(); ++k) {
       result.terms.push_back(model.terms[order[k]]);
-      result.weights[static_cast<Index>(k)] = weight_of(model, order[k]);
+      result.weight(k) = model.weight(order[k]);
     }
     return result;
   }
@@ -337,8 +334,8 @@ class Reducer {
     keep[j + 1] = false;
     Model result = model;
     const Term before = model.terms[j];
-    result.terms[j] = merged(model.terms[j], weight_of(model, j), model.terms[j + 1], weight_of(model, j + 1));
-    result.weights[static_cast<Index>(j)] += weight_of(model, j + 1);
+    result.terms[j] = merged(model.terms[j], model.weight(j), model.terms[j + 1], model.weight(j + 1));
+    result.weight(j) += model.weight(j + 1);
     for (Term& term : result.terms)
       if (is_initial_of(term, before)) term.time = result.terms[j].time;
     return selection(result, without_orphans(result, keep));
@@ -447,7 +444,7 @@ class Reducer {
 
 Model tidied(Model model) {
   std::vector<bool> keep;
-  for (std::size_t j = 0; j < model.terms.size(); ++j) keep.push_back(weight_of(model, j) != 0);
+  for (std::size_t j = 0; j < model.terms.size(); ++j) keep.push_back(model.weight(j) != 0);
   return selection(model, keep);
 }
 

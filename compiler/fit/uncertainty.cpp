@@ -17,8 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double weight_of(const Model& model, std::size_t j) { return model.weights[static_cast<Index>(j)]; }
-
 // Inverse of JᵀJ by the singular values of J's triangle, columns scaled to length one first.
 MatrixXd inverse_normal(const MatrixXd& jacobian, double& condition) {
   const VectorXd lengths = jacobian.colwise().norm().cwiseMax(1e-300);
@@ -38,7 +36,7 @@ constexpr ProjectionLimits rough{8, 1e-4};
 
 double value_of(const Model& model, const ElementQuantity& quantity) {
   const Term& term = model.terms[quantity.term];
-  const double weight = weight_of(model, quantity.term);
+  const double weight = model.weight(quantity.term);
   return (quantity.is_inverse ? 1 / weight : weight) * (quantity.times_time ? term.time : 1) *
          (quantity.times_threshold ? term.threshold : 1);
 }
@@ -48,8 +46,8 @@ CurveStiffness curve_stiffness(const Model& model) {
   for (std::size_t j = 0; j < model.terms.size(); ++j) {
     const TermKind kind = model.terms[j].kind;
     const bool holds = kind == TermKind::spring || kind == TermKind::stop || kind == TermKind::sliding;
-    if (holds) at_rest.value += weight_of(model, j);
-    if (kind == TermKind::maxwell || kind == TermKind::springpot) at_once.value += weight_of(model, j);
+    if (holds) at_rest.value += model.weight(j);
+    if (kind == TermKind::maxwell || kind == TermKind::springpot) at_once.value += model.weight(j);
   }
   return at_rest.value > 0 ? at_rest : at_once;
 }
@@ -86,14 +84,14 @@ Uncertainty::Uncertainty(const Problem& problem, const Model& model, double effe
   MatrixXd jacobian(problem.rows(), columns.cols() + static_cast<Index>(unknowns.size()));
   Index next = 0;
   for (std::size_t j = 0; j < model.terms.size(); ++j) {
-    if (weight_of(model, j) == 0) continue;
+    if (model.weight(j) == 0) continue;
     weight_place_[j] = next;
-    const double scale = is_signed(model.terms[j]) ? 1 : weight_of(model, j);
+    const double scale = is_signed(model.terms[j]) ? 1 : model.weight(j);
     jacobian.col(next++) = scale * columns.col(static_cast<Index>(j));
   }
   for (const Unknown& unknown : unknowns) {
     const bool is_of_model = unknown.kind == Unknown::Kind::gain || unknown.kind == Unknown::Kind::curve;
-    if (!is_of_model && weight_of(model, unknown.index) == 0) continue;
+    if (!is_of_model && model.weight(unknown.index) == 0) continue;
     if (unknown.kind == Unknown::Kind::time) time_place_[unknown.index] = next;
     if (unknown.kind == Unknown::Kind::threshold) threshold_place_[unknown.index] = next;
     if (unknown.kind == Unknown::Kind::curve) curve_place_.push_back(next);
@@ -138,8 +136,7 @@ std::optional<Interval> Uncertainty::interval(const CurveQuantity& quantity) con
     add(curve_place_[k],
         [&](Model& model, double by) { model.curve->set_parameter(k, model.curve->parameters()[k] + by); });
   for (std::size_t j = 0; j < weight_place_.size(); ++j)
-    if (weight_place_[j] >= 0)
-      add(weight_place_[j], [&](Model& model, double by) { model.weights[static_cast<Index>(j)] *= std::exp(by); });
+    if (weight_place_[j] >= 0) add(weight_place_[j], [&](Model& model, double by) { model.weight(j) *= std::exp(by); });
   const double half = quantile_ * std::sqrt(std::max(0.0, share.dot(covariance_ * share)));
   return Interval{value * std::exp(-half), value * std::exp(half)};
 }

@@ -14,15 +14,13 @@ namespace {
 
 using Eigen::Index;
 
-double weight_of(const Model& model, std::size_t j) { return model.weights[static_cast<Index>(j)]; }
-
 class ElementList {
  public:
   ElementList(const Problem& problem, const Model& model) : problem_(problem), model_(model) {}
 
   std::vector<FittedElement> run() {
     for (std::size_t j = 0; j < model_.terms.size(); ++j)
-      if (weight_of(model_, j) != 0) add_term(j);
+      if (model_.weight(j) != 0) add_term(j);
     return std::move(elements_);
   }
 

@@ -158,7 +158,7 @@ class Pages(unittest.TestCase):
         self.assertAlmostEqual(max(float(row[1]) for row in self.response()), surface + 0.002)
         self.browser.drag("#pad", [(-300, 0), (-100, -40), (50, 30), (200, 10)])
         self.assertIn("largest force", self.browser.run(SETTLED))
-        self.hover("#pareto .u-over", "#pareto .tip")
+        self.hover("#pareto .u-over", "#pareto .tip", places=(15, 7))
         self.hover("#forces .u-over", "#forces .u-legend")
         self.click_through_tunables()
         self.browser.click("summary")
@@ -199,8 +199,9 @@ class Pages(unittest.TestCase):
         """Its rows."""
         return list(csv.reader(io.StringIO(self.handed_out())))[1:]
 
-    def hover(self, chart, says):
-        """Moves the pointer all over a chart, which says numbers; a page without it has nothing to hover over."""
+    def hover(self, chart, says, places=(5, 3)):
+        """Moves the pointer all over a chart, which says numbers; a page without it has nothing to hover over. Where only
+        some points say something, it takes more places across and down to meet one."""
         box = self.browser.run(f"const part = document.querySelector('{chart}'), box = part?.getBoundingClientRect();"
                                "part?.scrollIntoView({ block: 'center' });"
                                "return box ? [box.width / 2, box.height / 2] : null")
@@ -209,8 +210,9 @@ class Pages(unittest.TestCase):
         self.browser.run(f"const part = document.querySelector('{says}'); window.said = '';"
                          "new MutationObserver(() => { said += part.textContent; })"
                          ".observe(part, { attributes: true, childList: true, subtree: true, characterData: true })")
-        self.browser.move(chart, [(int(box[0] * i / 8), int(box[1] * j / 4))
-                                  for j in (-2, 0, 2) for i in range(-6, 7, 3)])
+        across, down = places[0] // 2, places[1] // 2
+        self.browser.move(chart, [(int(box[0] * i / (across + 1)), int(box[1] * j / (down + 1)))
+                                  for j in range(-down, down + 1) for i in range(-across, across + 1)])
         self.assertRegex(self.browser.run("return said"), "[0-9]", chart)
 
     def assert_all_used(self):

@@ -623,12 +623,13 @@ class Trials {
  public:
   explicit Trials(const Network& network) : network_(network) {}
 
-  // All at the same time, for `with` to find.
+  // All at the same time, as far as there are threads, for `with` to find.
   void make(const std::vector<MendedDevice>& changes, const Choices& choices) {
     std::map<std::string, std::future<std::optional<Compilation>>> running;
     for (const MendedDevice& other : changes)
       if (made_.count(other.change) == 0)
-        running.emplace(other.change, std::async(std::launch::async, compiled, network_, choices, other.device));
+        running.emplace(other.change, std::async(std::launch::async | std::launch::deferred, compiled, network_,
+                                                 choices, other.device));
     for (auto& [change, trial] : running) made_.emplace(change, trial.get());
   }
 

@@ -194,18 +194,17 @@ Span place_of(const std::string& path, std::string_view line, std::size_t number
 
 std::optional<TableShape> table_shape(const std::string& path, const std::vector<HeadLine>& head, bool has_header,
                                       Diagnostics& diagnostics) {
-  TableShape shape;
-  RowCount best;
-  for (const Dialect& dialect : dialects)
-    if (const RowCount rows = row_count(dialect, head); rows.score > best.score) best = rows, shape.dialect = dialect;
-  if (best.score == 0) {
+  const std::optional<Dialect> dialect = dialect_of(head);
+  if (!dialect) {
     const HeadLine* const first = head.empty() ? nullptr : &head.front();
     const Span place = first ? place_of(path, first->text, first->number, first->text, diagnostics) : Span{};
     diagnostics.report<DiagnosticCode::recording_without_table>(place, path);
     diagnostics.note<DiagnosticCode::recording_table_remedy>({});
     return std::nullopt;
   }
-  shape.width = best.width;
+  TableShape shape;
+  shape.dialect = *dialect;
+  shape.width = row_count(*dialect, head).width;
   for (const HeadLine& line : head) {
     const std::vector<std::string_view> fields = fields_of(line.text, shape.dialect);
     shape.first_line = line.number;

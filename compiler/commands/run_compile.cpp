@@ -168,10 +168,10 @@ std::string proof_text(const Compilation& c, Diagnostics& diagnostics) {
   return "";
 }
 
-void warn_of_unverifiable(const Compilation& c, Diagnostics& diagnostics) {
-  const std::size_t nodes = largest_part(c.network).internal.size();
+void warn_of_unverifiable(const Network& network, Diagnostics& diagnostics) {
+  const std::size_t nodes = largest_part(network).internal.size();
   if (nodes > most_verified_nodes)
-    diagnostics.report<DiagnosticCode::certificate_beyond_verify>(c.network.name_span, c.network.name, nodes,
+    diagnostics.report<DiagnosticCode::certificate_beyond_verify>(network.name_span, network.name, nodes,
                                                                   most_verified_nodes);
 }
 
@@ -201,8 +201,10 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       else if (const auto emitted = compiled ? emit_axes(*compiled, options, diagnostics) : std::nullopt) {
         axes.two = true;
         outputs.insert(outputs.end(), emitted->begin(), emitted->end());
-        if (options.certificate)
+        if (options.certificate) {
+          for (const Compilation& port : compiled->ports) warn_of_unverifiable(port.network, diagnostics);
           certificate = axes_certificate_text(*compiled, file->text(), device.text, emitted->front().text);
+        }
       }
       continue;
     }
@@ -225,9 +227,10 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       if (options.uncertified) warn_of_uncertified(*compilation, options.choices, diagnostics);
       axes.one = true;
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
-      if (options.certificate) warn_of_unverifiable(*compilation, diagnostics);
-      if (options.certificate)
+      if (options.certificate) {
+        warn_of_unverifiable(compilation->network, diagnostics);
         certificate = certificate_text(*compilation, options.choices, file->text(), device.text, emitted->front().text);
+      }
       if (options.proof) proof = proof_text(*compilation, diagnostics);
     }
   }

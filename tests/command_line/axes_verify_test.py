@@ -134,6 +134,20 @@ class AxesVerify(CommandTest):
         self.assertIn("[banner-differs]", self.verified(
             header.replace("certified for any motion", "certified for all motion", 1), certificate, status=INPUT_REFUSED).stderr)
 
+    # If this fails, a certificate of two axes that verify refuses for its size is written without a word.
+    def test_parts_that_are_too_large(self):
+        network = json.loads(FIELD.read_text())
+        ends = ["tool"] + [f"n{i}" for i in range(201)]
+        network["ports"][0].pop("network")
+        network["ports"][0]["elements"] = [{"spring": 1, "nodes": list(pair)} for pair in zip(ends, ends[1:])] + [
+            {"damper": 1, "nodes": [end, "ground"]} for end in ends[1:]]
+        self.write("large.json", json.dumps(network))
+        said = self.dashpot("compile", "large.json", "--uncertified", "--certificate", "large.cert.json",
+                            "-o", ".").stderr
+        self.assertIn("'across' has a part with 201 inner nodes", said)
+        self.assertIn("[certificate-beyond-verify]", said)
+        self.refused("verify", "large.cert.json", "kelvin_field.hpp", code="part-too-large")
+
     # If this fails, a certificate may state less than is needed.
     def test_edits_of_the_stated_bounds(self):
         header, certificate = self.compiled(FIELD, "--device", PANTOGRAPH)

@@ -645,8 +645,7 @@ class Trials {
   std::map<std::string, std::optional<Compilation>> made_;
 };
 
-// Of the network compiled for this device or another: what errs noticeably less than `c`, and where what is felt errs
-// nowhere by more than it does anywhere with `c`.
+// The network compiled otherwise, where it errs noticeably less than `c` and its largest felt error is no larger.
 class Improvement {
  public:
   Improvement(const Compilation& c, const FeltError& error, Trials& trials)

@@ -44,8 +44,8 @@ class Curve {
   }
 
  private:
-  // Only at 0 a power has no derivatives. Elsewhere a piece is no longer than it is far from there, and what 30 points
-  // leave of it is below 1e-40.
+  // A power has no derivatives at 0. Every other piece is no longer than its distance from 0, and there 30 points are
+  // exact to 1e-40.
   Reference smooth_work(const Reference& from, const Reference& to) {
     const auto f = [this](const Reference& u) { return force(u); };
     if (from == 0) return at_zero_.integrate(f, from, to, Reference("1e-40"));

@@ -200,8 +200,8 @@ class Pages(unittest.TestCase):
         return list(csv.reader(io.StringIO(self.handed_out())))[1:]
 
     def hover(self, chart, says, places=(5, 3)):
-        """Moves the pointer all over a chart, which says numbers; a page without it has nothing to hover over. Where only
-        some points say something, it takes more places across and down to meet one."""
+        """Moves the pointer all over a chart, which says numbers; a page without it has nothing to hover over. Where
+        only some points say something, it takes more places across and down to meet one."""
         box = self.browser.run(f"const part = document.querySelector('{chart}'), box = part?.getBoundingClientRect();"
                                "part?.scrollIntoView({ block: 'center' });"
                                "return box ? [box.width / 2, box.height / 2] : null")

@@ -1,6 +1,6 @@
 // Runs a fuzzer's entry point over its seeds and over seeded changes of them, in any build: the same inputs on every
 // machine, without a fuzzer. An input that ends the program, or takes longer than `seconds_an_input`, is left in a
-// file.
+// file. In a thorough run (support/repetitions.hpp) there are ten changes for each of --changes.
 //
 //     NAME --left FILE [--seeds N] [--changes N] [--largest BYTES] [--words FILE] [--megabytes N] PATH…
 #include <fcntl.h>
@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "support/random.hpp"
+#include "support/repetitions.hpp"
 #include "support/shell_command.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -166,7 +167,7 @@ int run_all(const std::vector<std::string>& arguments) {
   if (options.contains("--words")) material.words = words_of(options["--words"]);
   const std::size_t seeds = std::min(all.size(), number("--seeds", all.size()));
   for (std::size_t i = 0; i < seeds; ++i) run(all[i * all.size() / seeds]);
-  const std::size_t changes = number("--changes", 1000);
+  const std::size_t usual = number("--changes", 1000), changes = dashpot::testing::repetitions(usual, 10 * usual);
   for (std::uint64_t i = 0; i < changes; ++i) run(changed_input(material, i));
   alarm(0);
   std::printf("%zu seeds of %zu, %zu changed inputs\n", seeds, all.size(), changes);

@@ -46,17 +46,23 @@ inline Interval operator-(const Interval& a, const Interval& b) { return a + -b;
 // Where an end is infinite: times 0 it is 0.
 Interval product_beyond_numbers(const Interval& a, const Interval& b);
 
+// Of a factor without negative members, by which no member changes its sign: two products are the ends.
+inline Interval scaled_up(const Interval& factor, const Interval& a) {
+  const double low = below(a.low * (a.low >= 0 ? factor.low : factor.high));
+  const double high = above(a.high * (a.high >= 0 ? factor.high : factor.low));
+  return {a.low >= 0 ? std::max(low, 0.0) : low, a.high <= 0 ? std::min(high, 0.0) : high};
+}
+
 // A product of two that do not change their sign does not either, and one with 0 is 0.
 inline Interval operator*(const Interval& a, const Interval& b) {
   if (is_zero(a) || is_zero(b)) return Interval(0);
   if (!((a.high - a.low) + (b.high - b.low) < std::numeric_limits<double>::infinity()))
     return product_beyond_numbers(a, b);
-  const double ends[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
-  const double low = below(std::min(std::min(ends[0], ends[1]), std::min(ends[2], ends[3])));
-  const double high = above(std::max(std::max(ends[0], ends[1]), std::max(ends[2], ends[3])));
-  const bool alike = (a.low >= 0 && b.low >= 0) || (a.high <= 0 && b.high <= 0);
-  const bool opposed = (a.low >= 0 && b.high <= 0) || (a.high <= 0 && b.low >= 0);
-  return {alike ? std::max(low, 0.0) : low, opposed ? std::min(high, 0.0) : high};
+  if (a.low >= 0) return scaled_up(a, b);
+  if (a.high <= 0) return -scaled_up(-a, b);
+  if (b.low >= 0) return scaled_up(b, a);
+  if (b.high <= 0) return -scaled_up(-b, a);
+  return {below(std::min(a.low * b.high, a.high * b.low)), above(std::max(a.low * b.low, a.high * b.high))};
 }
 
 // All numbers where the divisor holds 0.

@@ -12,7 +12,7 @@ import unittest
 
 import axes_test
 from axes_fields_test import BRAKE, field_of, prompt_arm
-from axes_test import BALL, FIELD, PANTOGRAPH, WALL, motion_in_joints, tip_of
+from axes_test import BALL, FIELD, PANTOGRAPH, WALL, motion_in_joints, near, tip_of
 from dashpot_command import DASHPOT, SOURCE, CommandTest
 
 sys.path.insert(0, str(SOURCE / "tests/support"))
@@ -133,7 +133,8 @@ class AxesC99Test(CommandTest):
         del serial["kinematics"]["base"]
         serial = self.write("serial.json", json.dumps(serial))
         for network, options, scalars in (
-                (FIELD, ["--device", PANTOGRAPH], ["double", "float"]), (WALL, ["--device", BOARD], ["float"]),
+                (FIELD, ["--device", self.write("near.json", near(PANTOGRAPH))], ["double", "float"]),
+                (WALL, ["--device", self.write("near_board.json", near(BOARD))], ["float"]),
                 (BALL, ["--rate", "10000"], ["double", "float"]), (gated, ["--device", prompt], ["double", "float"]),
                 (slipping, ["--device", four, "--decomposition", "non-injecting"], ["double", "float"]),
                 (FIELD, ["--device", serial, "--decomposition", "virtual"], ["double"])):

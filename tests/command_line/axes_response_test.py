@@ -9,7 +9,7 @@ import unittest
 
 from axes_c99_test import BOARD, SLIPPING
 from axes_fields_test import BRAKE, FAR, field_of, prompt_arm
-from axes_test import BALL, FIELD, PANTOGRAPH, WALL
+from axes_test import BALL, FIELD, PANTOGRAPH, WALL, near
 from dashpot_command import INPUT_REFUSED, SOURCE, CommandTest
 
 RELAXING = {"dashpot": 1, "axes": 2, "name": "relaxing", "ports": [
@@ -58,7 +58,7 @@ class AxesResponseTest(CommandTest):
         files = {name: self.write(f"{name}.json", json.dumps(text)) for name, text in (
             ("prompt", prompt_arm()), ("serial", serial), ("links", links), ("four", four), ("relaxing", RELAXING), ("slipping", SLIPPING),
             ("over", over), ("smooth", smooth))}
-        return [(FIELD, ["--device", PANTOGRAPH], True), (WALL, ["--device", BOARD], False), (BALL, ["--device", PANTOGRAPH], False),
+        return [(FIELD, ["--device", PANTOGRAPH], True), (WALL, ["--device", self.write("near_board.json", near(BOARD))], False), (BALL, ["--device", PANTOGRAPH], False),
                 (gated, ["--device", files["prompt"]], False), (gated, ["--device", files["four"]], False),
                 (files["relaxing"], ["--device", files["serial"]], True), (files["relaxing"], ["--device", files["prompt"], "--scheme", "backward-euler"], True),
                 (files["relaxing"], ["--device", files["links"], "--decomposition", "virtual"], True),

@@ -4,7 +4,7 @@ import math
 import re
 import unittest
 
-from axes_test import BALL, BASE, DISTAL, FIELD, LINK, PANTOGRAPH, WALL, joints_of, tip_of
+from axes_test import BALL, BASE, DISTAL, FIELD, LINK, PANTOGRAPH, WALL, joints_of, near, tip_of
 from dashpot_command import FIG_5, INPUT_REFUSED, SOURCE, CommandTest
 from verify_test import numbers_of
 
@@ -42,6 +42,7 @@ class AxesVerify(CommandTest):
         self.write("prompt.json", json.dumps(arm))
         arm["kinematics"] = SERIAL
         self.write("serial.json", json.dumps(arm))
+        self.write("near.json", near(PANTOGRAPH))
         self.write("mixed.json", MIXED)
 
     def compiled(self, *arguments):
@@ -60,22 +61,22 @@ class AxesVerify(CommandTest):
         file = {"dashpot": 1, "axes": 2, "name": "relaxing", "ports": [
             {"name": "across", "map": {"along": [1, 0]}, "network": relaxing}, {"name": "out", "map": {"along": [0, 1]}, "network": relaxing}]}
         self.write("relaxing.json", json.dumps(file))
-        told = self.dashpot("compile", "relaxing.json", "--device", PANTOGRAPH).stderr
+        told = self.dashpot("compile", "relaxing.json", "--device", "near.json").stderr
         self.assertIn("[nothing-proved]", told)
         self.assertIn("--decomposition faithful", told)
         for choice, certified in (("paper", False), ("diagonal", False), ("faithful", True)):
-            told = json.loads(self.dashpot("explain", "relaxing.json", "--device", PANTOGRAPH, "--decomposition", choice, "--json").stdout)
+            told = json.loads(self.dashpot("explain", "relaxing.json", "--device", "near.json", "--decomposition", choice, "--json").stdout)
             self.assertEqual(told["certified"], certified)
             self.assertEqual(told["chosen"], "diagonal")
         self.assertEqual([port["damping"] for port in told["ports"]], [0.4, 0.4])
-        header, certificate = self.compiled("relaxing.json", "--device", PANTOGRAPH, "--decomposition", "faithful")
+        header, certificate = self.compiled("relaxing.json", "--device", "near.json", "--decomposition", "faithful")
         self.verified(header, certificate)
         self.assertEqual(json.loads(certificate)["law"]["decomposition"], "faithful")
 
     # If this fails, a header that is what its certificate says is refused, or one is called certified that is not.
     def test_sound_ones_pass(self):
         for arguments, certified in (
-                ([FIELD, "--device", PANTOGRAPH], True), ([FIELD, "--device", PANTOGRAPH, "--scalar", "float"], True),
+                ([FIELD, "--device", PANTOGRAPH], True), ([FIELD, "--device", "near.json", "--scalar", "float"], True),
                 ([FIELD, "--device", "serial.json", "--decomposition", "non-injecting"], None),
                 ([BALL, "--device", "prompt.json", "--scheme", "backward-euler"], None),
                 ([BALL, "--device", PANTOGRAPH, "--decomposition", "virtual"], False),
@@ -94,7 +95,7 @@ class AxesVerify(CommandTest):
     # If this fails, a constant that is not the nearest to the network's or the device's passes, where the certificate
     # has been edited with it.
     def test_every_constant_by_one_unit_in_the_last_place(self):
-        for arguments in ([FIELD, "--device", PANTOGRAPH], [BALL, "--device", "prompt.json"], ["mixed.json", "--device", "serial.json"]):
+        for arguments in ([FIELD, "--device", "near.json"], [BALL, "--device", "prompt.json"], ["mixed.json", "--device", "serial.json"]):
             header, certificate = self.compiled(*arguments)
             stated = json.loads(certificate)
             constants = constants_of(header)
@@ -119,7 +120,7 @@ class AxesVerify(CommandTest):
 
     # If this fails, a header passes that is not the one that the certificate was written with.
     def test_single_constants_of_the_header(self):
-        header, certificate = self.compiled(FIELD, "--device", PANTOGRAPH)
+        header, certificate = self.compiled(FIELD, "--device", "near.json")
         at = {name: (begin, end) for name, begin, end in constants_of(header)}
         for name in ("across_static_stiffness", "sine_term_3", "base", "most_damping_1"):
             begin, end = at[name]
@@ -150,7 +151,7 @@ class AxesVerify(CommandTest):
 
     # If this fails, a certificate may state less than is needed.
     def test_edits_of_the_stated_bounds(self):
-        header, certificate = self.compiled(FIELD, "--device", PANTOGRAPH)
+        header, certificate = self.compiled(FIELD, "--device", "near.json")
         for key in ("needed_damping", "for_estimates", "for_lag", "missing_damping"):
             stated = json.loads(certificate)
             stated["passivity"][key] = math.nextafter(stated["passivity"][key], 0)
@@ -223,7 +224,7 @@ class AxesVerify(CommandTest):
 
     # If this fails, texts that do not belong together are taken for a certificate and its header.
     def test_what_is_of_one_axis(self):
-        header, certificate = self.compiled(FIELD, "--device", PANTOGRAPH)
+        header, certificate = self.compiled(FIELD, "--device", "near.json")
         self.dashpot("compile", FIG_5, "--certificate", "one.json", "--uncertified")
         one = (self.folder / "second_order_maxwell.hpp").read_text()
         self.verified(one, certificate, status=INPUT_REFUSED)
@@ -236,12 +237,12 @@ class AxesVerify(CommandTest):
     # If this fails, whoever has mixed two compiles up is told what is wrong in one of them, and not that.
     def test_texts_of_two_compiles(self):
         header, _ = self.compiled(FIELD, "--rate", "1000")
-        _, certificate = self.compiled(FIELD, "--device", PANTOGRAPH)
+        _, certificate = self.compiled(FIELD, "--device", "near.json")
         told = self.verified(header, certificate, status=INPUT_REFUSED).stderr
         self.assertIn("they were not written together: the header is of device 'ideal' with samples of 0.001 s", told)
         wrong = json.loads(certificate)
         wrong["passivity"]["needed_damping"] *= 1.5
-        header, _ = self.compiled(FIELD, "--device", PANTOGRAPH)
+        header, _ = self.compiled(FIELD, "--device", "near.json")
         self.assertNotIn("not written together", self.verified(header, json.dumps(wrong), status=INPUT_REFUSED).stderr)
 
 

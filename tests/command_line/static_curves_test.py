@@ -1,12 +1,14 @@
 """Static curves in every command that compiles a network."""
 import json
 import math
+import os
 import re
 import unittest
 
 from dashpot_command import INPUT_REFUSED, SOURCE, CommandTest
 
 SPHERE, SKIN, LIGAMENT = (SOURCE / f"networks/static/{name}.json" for name in ["sphere_on_gel", "skin_in_contact", "ligament"])
+IS_LONG = os.environ.get("DASHPOT_LONG") == "1"
 TRAINER = SOURCE / "examples/breast_palpation/device.json"
 KNEE = SOURCE / "examples/knee_ligament/device.json"
 PANTOGRAPH = SOURCE / "runtime/devices/pantograph_brake_2009.json"
@@ -77,8 +79,8 @@ class StaticCurvesTest(CommandTest):
     # If this fails, the table promises of a candidate what it does not keep when it is chosen.
     def test_candidates_need_what_they_need_when_chosen(self):
         self.write("cone.json", json.dumps(CONE))
-        for network in ["cone.json", LIGAMENT, SKIN]:
-            for device in [PANTOGRAPH, TRAINER, KNEE]:
+        for network, devices in [("cone.json", [PANTOGRAPH, TRAINER]), (LIGAMENT, [KNEE]), (SKIN, [PANTOGRAPH, TRAINER])]:
+            for device in devices if IS_LONG else devices[:1]:
                 told = self.dashpot("explain", network, "--device", device, "--json", status=None)
                 if told.returncode:
                     continue

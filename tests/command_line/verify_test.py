@@ -650,15 +650,16 @@ class Certified(CommandTest):
         """Fails if the default choice, which uses what a brake has to its end, is refused where a choice with less damping is
         certified: the proof needs a little more than the search has asked for."""
         compiled = 0
+        stiffnesses = [500, 700, 1000, 1500, 2000, 3000, 4000, 4500, 5000, 5500, 6000, 6500, 7000]
         for device in ["pantograph_brake_2009", "phantom_shorted_motor"]:
-            for stiffness in [500, 700, 1000, 1500, 2000, 3000, 4000, 4500, 5000, 5500, 6000, 6500, 7000]:
+            for stiffness in stiffnesses if IS_LONG else stiffnesses[1::2]:
                 net = self.write("hard.json", network(f'{{ "spring": {stiffness} }}', "hard"))
                 run = ["compile", net, "--device", SOURCE / f"runtime/devices/{device}.json"]
                 virtual = self.dashpot(*run, "--decomposition", "virtual", status=None)
                 if virtual.returncode == 0:
                     compiled += 1
                     self.assertLessEqual(set(codes(self.dashpot(*run).stderr)), {"felt-error"})
-        self.assertGreater(compiled, 10)
+        self.assertGreater(compiled, 10 if IS_LONG else 4)
 
     def test_what_a_device_file_would_have_to_say(self):
         """Fails if what a note tells to write into a device file does not do there: a stronger brake at a joint, more damping of the

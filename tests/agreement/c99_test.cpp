@@ -309,8 +309,10 @@ void expect_same_bits(compiler::ScalarType scalar) {
     return done.output;
   };
   const char* const run = "-o laws && ./laws < input";
-  for (const char* compiler : {DASHPOT_GCC " -std=c99", DASHPOT_CLANG " -std=c99"})
-    EXPECT_EQ(first_difference(finished(compiler, run), expected), "") << compiler;
+  // In float the code is the same, with other numbers.
+  std::vector<const char*> compilers{DASHPOT_CLANG " -std=c99"};
+  if (is_thorough() || scalar == compiler::ScalarType::float64) compilers.push_back(DASHPOT_GCC " -std=c99");
+  for (const char* compiler : compilers) EXPECT_EQ(first_difference(finished(compiler, run), expected), "") << compiler;
   // Of C++ what is read is another language; what is made of it is gcc's.
   const char* const as_cpp = DASHPOT_GXX " -x c++ -std=c++17";
   if (is_thorough()) EXPECT_EQ(first_difference(finished(as_cpp, run), expected), "") << as_cpp;

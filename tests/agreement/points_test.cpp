@@ -213,7 +213,7 @@ TEST(Points, are_single_networks_with_compensation) { expect_agreement("--scalar
 // Fails likewise where parameters change between samples, each point's by themselves, and points are put to rest.
 TEST(Points, are_single_networks_with_parameters_of_their_own) {
   const TemporaryFolder folder;
-  expect_agreement(folder, tunable_networks(folder.path()), "--rate 1000");
+  expect_agreement(folder, tunable_networks(folder.path()), "--rate 1000", Single::in_both_forms, alone(gxx));
 }
 
 // Fails likewise in float, on a motor that makes little of what is asked for, so that forces are let go of.
@@ -240,7 +240,7 @@ TEST(Points, are_single_networks_with_coupled_slips) {
 // Fails likewise where what the solvers read is another at each point, since parameters change it.
 TEST(Points, are_single_networks_with_coupled_slips_and_parameters) {
   const TemporaryFolder folder;
-  expect_agreement(folder, coupled_networks(folder.path(), true), "--rate 1000", Single::with_jumps);
+  expect_agreement(folder, coupled_networks(folder.path(), true), "--rate 1000", Single::with_jumps, alone(clangxx));
 }
 
 // Fails likewise where the brake's coil needs twenty samples from one regime to another, and the motor makes up for it

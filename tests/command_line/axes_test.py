@@ -580,9 +580,9 @@ class AxesTest(CommandTest):
 
     # If this fails, joints in degrees, in another order or among other columns are simulated as another motion.
     def test_units_and_order_of_joints(self):
-        joints = motion_in_joints(50, 2)
+        joints, arm = motion_in_joints(50, 2), self.write("near.json", near(PANTOGRAPH))
         simulated = lambda names, rows: [[float(word) for word in line.split(",")[1:]] for line in self.dashpot(
-            "simulate", FIELD, "--device", self.write("near.json", near(PANTOGRAPH)), "--input", self.write("motion.csv", names + "\n" + "".join(
+            "simulate", FIELD, "--device", arm, "--input", self.write("motion.csv", names + "\n" + "".join(
                 ",".join(map(repr, row)) + "\n" for row in rows))).stdout.splitlines()[1:]]
         plain = simulated("time,q1,q2", [[i * PERIOD, *q] for i, q in enumerate(joints)])
         other = simulated("# of the rig\ntrial,q2 [deg],t [ms],q1 (deg)",
@@ -594,7 +594,7 @@ class AxesTest(CommandTest):
                              ("time,q1 [N],q2", "recording-wrong-unit"), ("time,q1 [rad],q2 [mm]", "recording-wrong-unit"),
                              ("time,q1 [mm],q2 [mm]", "csv-other-motion")):
             self.write("bad.csv", f"{header}\n" + "0,1,1,1"[:2 * header.count(",") + 1] + "\n")
-            refused = self.refused("simulate", FIELD, "--device", self.write("near.json", near(PANTOGRAPH)), "--input", "bad.csv", code=code)
+            refused = self.refused("simulate", FIELD, "--device", arm, "--input", "bad.csv", code=code)
             self.assertIn("bad.csv:1:", refused.stderr)
 
     # If this fails, a loop of one's own has other numbers than the device's file, or takes a law for another's.

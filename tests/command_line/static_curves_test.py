@@ -81,9 +81,7 @@ class StaticCurvesTest(CommandTest):
         self.write("cone.json", json.dumps(CONE))
         for network, devices in [("cone.json", [PANTOGRAPH, TRAINER]), (LIGAMENT, [KNEE]), (SKIN, [PANTOGRAPH, TRAINER])]:
             for device in devices if IS_LONG else devices[:1]:
-                told = self.dashpot("explain", network, "--device", device, "--json", status=None)
-                if told.returncode:
-                    continue
+                told = self.dashpot("explain", network, "--device", device, "--json")
                 for row in json.loads(told.stdout)["candidates"]:
                     own = json.loads(self.dashpot("explain", network, "--device", device, "--json", "--decomposition", row["name"]).stdout)
                     chosen = next(c for c in own["candidates"] if c["name"] == row["name"])

@@ -46,7 +46,7 @@ inline Interval operator-(const Interval& a, const Interval& b) { return a + -b;
 // Where an end is infinite: times 0 it is 0.
 Interval product_beyond_numbers(const Interval& a, const Interval& b);
 
-// Of a factor without negative members, by which no member changes its sign: two products are the ends.
+// By a factor that is nowhere negative: no sign changes, and so each end is one product.
 inline Interval scaled_up(const Interval& factor, const Interval& a) {
   const double low = below(a.low * (a.low >= 0 ? factor.low : factor.high));
   const double high = above(a.high * (a.high >= 0 ? factor.high : factor.low));

@@ -31,7 +31,7 @@ struct Sloped {
       : value(value_over), middle(in_middle), slope(slope_over) {
     double most = 0;
     for (const Interval& one : slope)
-      if (!is_zero(one)) most = above(most + std::max(-one.low, one.high));
+      if (!is_zero(one)) most = above(most + abs(one).high);
     const Interval near = middle + Interval(-most, most);
     if (near.low > value.low) value.low = near.low;
     if (near.high < value.high) value.high = near.high;

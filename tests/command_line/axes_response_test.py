@@ -59,7 +59,8 @@ class AxesResponseTest(CommandTest):
             ("prompt", prompt_arm()), ("serial", serial), ("links", links), ("four", four), ("relaxing", RELAXING), ("slipping", SLIPPING),
             ("over", over), ("smooth", smooth))}
         near_board = self.write("near_board.json", near(BOARD))
-        return [(FIELD, ["--device", PANTOGRAPH], True), (WALL, ["--device", near_board], False), (BALL, ["--device", PANTOGRAPH], False),
+        return [(FIELD, ["--device", PANTOGRAPH], True), (WALL, ["--device", near_board], False),
+                (BALL, ["--device", PANTOGRAPH], False),
                 (gated, ["--device", files["prompt"]], False), (gated, ["--device", files["four"]], False),
                 (files["relaxing"], ["--device", files["serial"]], True), (files["relaxing"], ["--device", files["prompt"], "--scheme", "backward-euler"], True),
                 (files["relaxing"], ["--device", files["links"], "--decomposition", "virtual"], True),

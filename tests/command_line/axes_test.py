@@ -44,7 +44,7 @@ int main() {
 
 
 def near(device):
-    """The text of a five-bar's file with NEAR for its workspace: for tests of what does not hang on how far an arm goes."""
+    """A five-bar's file with NEAR for its workspace, for tests in which it does not matter how far the arm goes."""
     arm = json.loads(device.read_text())
     arm["kinematics"]["workspace"] = NEAR
     return json.dumps(arm)

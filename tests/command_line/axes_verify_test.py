@@ -65,7 +65,8 @@ class AxesVerify(CommandTest):
         self.assertIn("[nothing-proved]", told)
         self.assertIn("--decomposition faithful", told)
         for choice, certified in (("paper", False), ("diagonal", False), ("faithful", True)):
-            told = json.loads(self.dashpot("explain", "relaxing.json", "--device", "near.json", "--decomposition", choice, "--json").stdout)
+            told = json.loads(self.dashpot("explain", "relaxing.json", "--device", "near.json", "--decomposition", choice,
+                                           "--json").stdout)
             self.assertEqual(told["certified"], certified)
             self.assertEqual(told["chosen"], "diagonal")
         self.assertEqual([port["damping"] for port in told["ports"]], [0.4, 0.4])
@@ -95,8 +96,8 @@ class AxesVerify(CommandTest):
     # If this fails, a constant that is not the nearest to the network's or the device's passes, where the certificate
     # has been edited with it.
     def test_every_constant_by_one_unit_in_the_last_place(self):
-        for arguments in ([FIELD, "--device", "near.json"], [BALL, "--device", "prompt.json"], ["mixed.json", "--device", "serial.json"]):
-            header, certificate = self.compiled(*arguments)
+        for network, device in ((FIELD, "near.json"), (BALL, "prompt.json"), ("mixed.json", "serial.json")):
+            header, certificate = self.compiled(network, "--device", device)
             stated = json.loads(certificate)
             constants = constants_of(header)
             self.assertGreater(len(constants), 30)

@@ -79,7 +79,8 @@ class StaticCurvesTest(CommandTest):
     # If this fails, the table promises of a candidate what it does not keep when it is chosen.
     def test_candidates_need_what_they_need_when_chosen(self):
         self.write("cone.json", json.dumps(CONE))
-        for network, devices in [("cone.json", [PANTOGRAPH, TRAINER]), (LIGAMENT, [KNEE]), (SKIN, [PANTOGRAPH, TRAINER])]:
+        for network, devices in [("cone.json", [PANTOGRAPH, TRAINER]), (LIGAMENT, [KNEE]),
+                                 (SKIN, [PANTOGRAPH, TRAINER])]:
             for device in devices if IS_LONG else devices[:1]:
                 told = self.dashpot("explain", network, "--device", device, "--json")
                 for row in json.loads(told.stdout)["candidates"]:

@@ -127,8 +127,9 @@ class Units(unittest.TestCase):
             self.assertEqual(sum(a == b for a, b in zip(found, expected, strict=True)), ROWS)
 
     def test_the_networks_of_the_paper(self):
-        """Fails if a unit of one of them breaks a rule of the standard, or answers otherwise than `simulate`, by one bit, in either
-        version and either scalar: every fourth; tests/targets/ plays all."""
+        """Fails if a unit of one of them breaks a rule of the standard, or answers otherwise than `simulate`, by one bit.
+
+        Every fourth network, in either version and scalar; tests/targets/ plays all."""
         rows = motion()[:300]
         for path in sorted((SOURCE / "networks/paper").glob("*.json"))[::4]:
             for version, scalar in [(2, "double"), (3, "float")]:

@@ -13,8 +13,8 @@ SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
 DASHPOT = os.environ["DASHPOT"]
 IS_LONG = os.environ.get("DASHPOT_LONG") == "1"
 COMPILERS = [os.environ["GCC"], os.environ["CLANG"]]
-STRICT = ["-std=c99", "-O2" if IS_LONG else "-O1", "-ffp-contract=off", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow",
-          "-Wdouble-promotion", "-Werror"]
+STRICT = ["-std=c99", "-O2" if IS_LONG else "-O1", "-ffp-contract=off", "-pedantic", "-Wall", "-Wextra",
+          "-Wconversion", "-Wshadow", "-Wdouble-promotion", "-Werror"]
 NETWORKS = [*sorted((SOURCE / "networks/paper").glob("*.json")),
             SOURCE / "networks/tunable/second_order_maxwell_tunable.json"]
 

@@ -90,13 +90,20 @@ def single(number):
 
 
 class Consumer:
-    """What holds in either tree."""
+    """What holds in either tree. The project is built once; each test changes it and begins with it as it was."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.enterClassContext(tempfile.TemporaryDirectory(prefix="consumer"))
+        cls.project = Project(f"{folder}/project", cls.options())
+        cls.first_build = cls.project.build()
+        cls.as_built = f"{folder}/as_built"
+        shutil.copytree(cls.project.folder, cls.as_built, symlinks=True)
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="consumer")
-        self.addCleanup(folder.cleanup)
-        self.project = Project(folder.name, self.options())
-        self.first_build = self.project.build()
+        # In the same place, since its files name it, and with the times at which they were written.
+        self.addCleanup(shutil.copytree, self.as_built, self.project.folder, symlinks=True)
+        self.addCleanup(shutil.rmtree, self.project.folder)
 
     # Fails if what a user's build runs is not the law of the network, device and choices that the build names.
     def check_commands(self):
@@ -144,10 +151,12 @@ class Consumer:
 class InTree(Consumer, unittest.TestCase):
     """dashpot as a subdirectory of the user's project, which names a compiler that is built already."""
 
-    def options(self):
-        return [f"-DDASHPOT_SOURCE={SOURCE}", f"-DDASHPOT_COMPILER={self.dashpot()}"]
+    @classmethod
+    def options(cls):
+        return [f"-DDASHPOT_SOURCE={SOURCE}", f"-DDASHPOT_COMPILER={cls.dashpot()}"]
 
-    def dashpot(self):
+    @classmethod
+    def dashpot(cls):
         return PREFIX / "bin/dashpot"
 
     def test_commands_and_rest(self):
@@ -206,17 +215,18 @@ class Installed(Consumer, unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.parent = tempfile.TemporaryDirectory(prefix="moved")
-        cls.prefix = pathlib.Path(cls.parent.name) / "prefix"
+        cls.prefix = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="moved"))) / "prefix"
         shutil.copytree(PREFIX, cls.prefix)
-        cls.addClassCleanup(cls.parent.cleanup)
+        super().setUpClass()
 
-    def options(self):
+    @classmethod
+    def options(cls):
         hidden = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in OWN_DEPENDENCIES]
-        return [f"-DCMAKE_PREFIX_PATH={self.prefix}", *hidden]
+        return [f"-DCMAKE_PREFIX_PATH={cls.prefix}", *hidden]
 
-    def dashpot(self):
-        return self.prefix / "bin/dashpot"
+    @classmethod
+    def dashpot(cls):
+        return cls.prefix / "bin/dashpot"
 
     def test_commands(self):
         self.check_commands()
@@ -313,6 +323,8 @@ class Installed(Consumer, unittest.TestCase):
 
     # Fails if laws of an old compiler survive a new one.
     def test_changed_compiler(self):
+        was = self.dashpot().stat()
+        self.addCleanup(os.utime, self.dashpot(), ns=(was.st_atime_ns, was.st_mtime_ns))
         self.dashpot().touch()
         self.assertEqual(self.project.build().count(COMPILING_A_LAW), 2)
 

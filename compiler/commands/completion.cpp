@@ -31,7 +31,7 @@ std::string escaped(const std::string& text, std::string_view characters) {
 }
 
 // Inside '…', where no backslash means anything.
-std::string quoted(const std::string& text) {
+std::string in_shell_quotes(const std::string& text) {
   std::string result = "'";
   for (char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return result + "'";
@@ -104,7 +104,8 @@ std::string zsh_argument(const OptionWords& option) {
           : fmt::format(":{}:{}", escaped(option.value.empty() ? option.long_name : option.value, ":\\"),
                         zsh_values(option));
   std::string text;
-  for (const std::string& name : names_of(option)) text += " " + quoted((option.many ? "*" : "") + name + what + value);
+  for (const std::string& name : names_of(option))
+    text += " " + in_shell_quotes((option.many ? "*" : "") + name + what + value);
   return text;
 }
 
@@ -112,12 +113,12 @@ std::string in_zsh(const std::vector<CommandWords>& commands) {
   std::string names, cases;
   for (const CommandWords& command : commands) {
     if (command.name.empty()) continue;
-    names += fmt::format("    {}\n", quoted(command.name + ":" + escaped(command.what, ":\\")));
+    names += fmt::format("    {}\n", in_shell_quotes(command.name + ":" + escaped(command.what, ":\\")));
     cases += fmt::format("    {}) _arguments", command.name);
     for (const OptionWords& option : command.options) cases += " \\\n     " + zsh_argument(option);
     for (const OptionWords& positional : command.positionals)
-      cases += " \\\n      " + quoted(fmt::format("{}:{}:{}", positional.many ? "*" : "", positional.long_name,
-                                                  zsh_values(positional)));
+      cases += " \\\n      " + in_shell_quotes(fmt::format("{}:{}:{}", positional.many ? "*" : "", positional.long_name,
+                                                           zsh_values(positional)));
     cases += " ;;\n";
   }
   return fmt::format(R"(#compdef dashpot
@@ -142,7 +143,7 @@ if [[ $funcstack[1] == _dashpot ]]; then _dashpot "$@"; else compdef _dashpot da
 
 std::string fish_values(const OptionWords& option) {
   switch (option.takes) {
-    case Takes::choice: return " -x -a " + quoted(joined(option.choices));
+    case Takes::choice: return " -x -a " + in_shell_quotes(joined(option.choices));
     case Takes::file: return " -r -F";
     case Takes::folder: return " -x -a '(__fish_complete_directories)'";
     case Takes::other: return " -x";
@@ -160,17 +161,17 @@ std::string in_fish(const std::vector<CommandWords>& commands) {
     const std::string condition = is_dashpot ? "__fish_use_subcommand" : "__fish_seen_subcommand_from " + command.name;
     if (!is_dashpot)
       text += fmt::format("complete -c dashpot -n __fish_use_subcommand -a {} -d {}\n", command.name,
-                          quoted(escaped(command.what, "\\")));
+                          in_shell_quotes(escaped(command.what, "\\")));
     for (const OptionWords& option : command.options) {
-      text += fmt::format("complete -c dashpot -n {}", quoted(condition));
+      text += fmt::format("complete -c dashpot -n {}", in_shell_quotes(condition));
       if (!option.short_name.empty()) text += " -s " + option.short_name.substr(1);
       if (!option.long_name.empty()) text += " -l " + option.long_name.substr(2);
-      text += fmt::format("{} -d {}\n", fish_values(option), quoted(escaped(option.what, "\\")));
+      text += fmt::format("{} -d {}\n", fish_values(option), in_shell_quotes(escaped(option.what, "\\")));
     }
     for (const OptionWords& positional : command.positionals)
       if (positional.takes == Takes::choice)
-        text +=
-            fmt::format("complete -c dashpot -n {} -f -a {}\n", quoted(condition), quoted(joined(positional.choices)));
+        text += fmt::format("complete -c dashpot -n {} -f -a {}\n", in_shell_quotes(condition),
+                            in_shell_quotes(joined(positional.choices)));
   }
   return text;
 }

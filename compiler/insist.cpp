@@ -435,8 +435,8 @@ void warn_of_uncertified(const Compilation& c, const Choices& choices, Diagnosti
   if (certificate.bound.proof == Proof::none)
     diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device, reason);
   else diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, reason);
-  if (c.device) tell_of_other_devices(c, choices, diagnostics);
-  else diagnostics.note<DiagnosticCode::name_a_device>({});
+  if (!c.device) diagnostics.note<DiagnosticCode::name_a_device>({});
+  else if (diagnostics.wants_advice()) tell_of_other_devices(c, choices, diagnostics);
 }
 
 namespace {
@@ -528,7 +528,7 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
           ? fmt::format("where at least {} is sure with the values that ask least of the brake", available_words)
           : fmt::format("which gives at least {}{}", available_words,
                         loop.max_damping > 0 ? " with all of its brake" : ""));
-  notes_on_remedies(c, choices, available, of_regimes).tell(diagnostics);
+  if (diagnostics.wants_advice()) notes_on_remedies(c, choices, available, of_regimes).tell(diagnostics);
   diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return false;
 }
@@ -677,6 +677,7 @@ double smallest_brake_worth_having(const Compilation& c, const Remedies& remedie
 // What would err less: another choice, else another device.
 void tell_what_errs_less(const Compilation& c, const Choices& choices, const FeltError& error, Trials& trials,
                          Diagnostics& diagnostics) {
+  if (!diagnostics.wants_advice()) return;
   const Improvement improvement(c, error, trials);
   std::vector<OtherChoices> others = other_choices(c, choices);
   if (c.decomposition.choice().name != "virtual") {
@@ -749,6 +750,7 @@ void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostic
 
 void tell_what_is_proved_at_the_limit(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   const MotorLimits& limits = c.certificate.limits;
+  if (!diagnostics.wants_advice()) return;
   if (!c.device || !c.certificate.certified || limits.rule == LimitRule::none || limits.is_covered) return;
   const std::string unit = port_units(c.network.port_motion).damping;
   if (c.decomposition.choice().name != "velocity-free") {

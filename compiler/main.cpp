@@ -163,6 +163,11 @@ CLI::App* add_command(CLI::App& app, CommandLine& line, const char* name, const 
   return command;
 }
 
+void add_advice(CLI::App& command, CommandLine& line) {
+  command.add_flag("--no-advice", line.options.without_advice,
+                   "Say what is wrong, without the search for what would help, which compiles many times");
+}
+
 void add_networks(CLI::App& command, CommandLine& line, bool several) {
   CLI::Option* networks = command.add_option("NETWORK", line.options.networks, "Network file")->required();
   networks->expected(several ? -1 : 1);
@@ -326,12 +331,14 @@ void describe(CLI::App& app, CommandLine& line) {
       "The program dashpot-check, with a hyphen, is another: it decides what a certificate states of a header.");
   check->add_option("FILE", options.networks, "Network or device files, or tables")->required()->expected(-1);
   add_choices(*check, line);
+  add_advice(*check, line);
   add_reading(*check, options.fit);
 
   CLI::App* explain =
       add_command(app, line, "explain", "Show canonical form, candidate decompositions, and the choice");
   add_networks(*explain, line, false);
   add_choices(*explain, line);
+  add_advice(*explain, line);
   explain->add_flag("--json", options.json, "As JSON, SI units");
   explain->add_flag("--legend", options.legend, "Say what the columns mean");
   explain->add_option("--as", options.as, "Print the same network in another form instead, as a network file")
@@ -342,6 +349,7 @@ void describe(CLI::App& app, CommandLine& line) {
       add_command(app, line, "compile", "Write the update law as C++, C99 or what else a target makes of it");
   add_networks(*compile, line, true);
   add_choices(*compile, line);
+  add_advice(*compile, line);
   compile->add_option("-o,--output", options.output, "Folder to write to, default the current one")->option_text("DIR");
   compile->add_option("--target", line.target, "What to write, default cpp; all are listed below")
       ->check(check_target)
@@ -397,6 +405,7 @@ void describe(CLI::App& app, CommandLine& line) {
       add_command(app, line, "report", "Draw the network, its responses and the choice as one HTML page");
   add_networks(*report, line, false);
   add_choices(*report, line);
+  add_advice(*report, line);
   report->add_option("-o,--output", options.output, "File to write to")->required()->option_text("FILE.html");
 
   CLI::App* verify =
@@ -413,6 +422,7 @@ void describe(CLI::App& app, CommandLine& line) {
       add_command(app, line, "run", "Run the servo loop on a device, simulated unless --port names a board");
   add_networks(*run, line, false);
   add_choices(*run, line);
+  add_advice(*run, line);
   run->get_option("--device")->required()->description("Device file");
   run->add_option("--for", options.duration, "How long [s], default until Ctrl-C")
       ->check(check_duration)
@@ -534,6 +544,7 @@ std::string complaint_about_option(const CLI::App& app, const std::vector<std::s
 ExitStatus run(const CLI::App& app, const CommandLine& line) {
   SourceFiles files;
   Diagnostics diagnostics;
+  if (line.options.without_advice) diagnostics.take_no_advice();
   ExitStatus status = ExitStatus::command_line_wrong;
   const std::string command = app.get_subcommands().front()->get_name();
   if (command == command_of_completion || command == command_of_manual) {

@@ -337,7 +337,7 @@ bool insist_on_certificate(const AxesCompilation& c, const Options& options, Dia
                                                            why_not_certified(c.certificate, c.device));
   else warn_of_uncertified(c, diagnostics);
   if (!c.certificate.lacks_only_damping()) return true;
-  note_what_would_do(c, diagnostics);
+  if (diagnostics.wants_advice()) note_what_would_do(c, diagnostics);
   if (!options.uncertified) diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return options.uncertified;
 }

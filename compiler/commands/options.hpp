@@ -57,6 +57,7 @@ struct Options {
   const Target* target = &targets().front();  // compile
   EmissionOptions emission;
   bool uncertified = false;                       // compile: also what lacks damping on its device
+  bool without_advice = false;                    // no search for what would help
   bool legend = false;                            // explain: what the columns mean
   bool allow_uncertified = false;                 // verify: also what is sound and not certified
   bool json = false;                              // explain, run --motion

@@ -70,6 +70,10 @@ class Diagnostics {
 
   void forget() { list_.clear(); }  // what has been told
 
+  // Advice is what would help, found by compiling otherwise, often many times. It is looked for unless it is unwanted.
+  void take_no_advice() { wants_advice_ = false; }
+  bool wants_advice() const { return wants_advice_; }
+
   bool has_errors() const;
   std::size_t error_count() const;
   std::vector<Diagnostic> in_file_order() const;  // placed ones by file and place, the others first
@@ -83,6 +87,7 @@ class Diagnostics {
 
   std::vector<Diagnostic> list_;
   std::vector<std::shared_ptr<const SourceFile>> kept_;
+  bool wants_advice_ = true;
 };
 
 }  // namespace dashpot::compiler

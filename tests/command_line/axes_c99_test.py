@@ -141,7 +141,8 @@ class AxesC99Test(CommandTest):
             for scalar in scalars:
                 folder = pathlib.Path(tempfile.mkdtemp(dir=self.folder_of_laws))
                 for target in ("cpp", "c99"):
-                    self.dashpot("compile", network, *options, "--scalar", scalar, "--uncertified", "--target", target,
+                    self.dashpot("compile", network, *options, "--scalar", scalar, "--uncertified", "--no-advice",
+                                 "--target", target,
                                  "-o", folder)
                 yield json.loads(network.read_text())["name"], scalar, "--device" in options, folder
 
@@ -207,7 +208,8 @@ class AxesC99Test(CommandTest):
         rows = axes_test.AxesTest.rows(self, motion_in_joints(200, 8))
         for (processor, (_, machine)), scalar, form in zip(PROCESSORS.items(), ("float", "double"), "fd"):
             told = self.simulated(WALL, rows, "--device", PANTOGRAPH, "--scalar", scalar)
-            self.dashpot("compile", WALL, "--device", PANTOGRAPH, "--scalar", scalar, "--uncertified", "--target", "c99")
+            self.dashpot("compile", WALL, "--device", PANTOGRAPH, "--scalar", scalar, "--uncertified", "--no-advice",
+                         "--target", "c99")
             name = json.loads(WALL.read_text())["name"]
             table = ", ".join("{" + ", ".join(f"(SCALAR){value!r}" for value in row) + "}" for row in rows)
             self.write("board.cpp", ON_BOARD.replace("ROWS", table).replace("NAME", name).replace("SCALAR", scalar))

@@ -100,7 +100,7 @@ class AxesTest(CommandTest):
 
     def compile(self, network, *options):
         name = json.loads(network.read_text())["name"]
-        self.dashpot("compile", network, "--uncertified", *options)
+        self.dashpot("compile", network, "--uncertified", "--no-advice", *options)
         self.write("driver.cpp", DRIVER % {"name": name})
         subprocess.run([shutil.which("g++") or "c++", "-std=c++17", "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror",
                         "-I", SOURCE / "runtime/include", "-I", ".", "driver.cpp", "-o", name], cwd=self.folder, check=True)
@@ -600,7 +600,7 @@ class AxesTest(CommandTest):
     # If this fails, a loop of one's own has other numbers than the device's file, or takes a law for another's.
     def test_a_device_is_written_as_code(self):
         self.dashpot("device", PANTOGRAPH, "--target", "cpp", "-o", "arm.hpp")
-        self.dashpot("compile", FIELD, "--device", PANTOGRAPH, "--uncertified")
+        self.dashpot("compile", FIELD, "--device", PANTOGRAPH, "--uncertified", "--no-advice")
         self.write("facts.cpp", r"""
 #include "arm.hpp"
 #include "kelvin_field.hpp"

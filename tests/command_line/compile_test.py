@@ -1,6 +1,7 @@
 """What `dashpot compile` writes, and when it writes nothing."""
 import json
 import os
+import re
 import signal
 import subprocess
 import time
@@ -181,6 +182,30 @@ class Files(CommandTest):
         self.assertIn("sample_period = 0.00025;", (self.folder / "kelvin.hpp").read_text())
         self.dashpot("compile", "kelvin.json", "--device", PANTOGRAPH, "--uncertified")
         self.assertIn("sample_period = 0.0001;", (self.folder / "kelvin.hpp").read_text())
+
+    def test_no_advice(self):
+        """Fails if without advice anything but notes is left out, or the search for what would help goes on."""
+        single = SOURCE / "runtime/devices/phantom_single_motor.json"
+        field = [SOURCE / "networks/axes/kelvin_field.json", "--set", "B=4 N s/m",
+                 "--device", SOURCE / "runtime/devices/pantograph_2dof.json"]
+        for words in [["compile", FIG_5, "--device", PANTOGRAPH, "--decomposition", "paper"],  # errs more than need be
+                      ["compile", "kelvin.json", "--device", single],  # lacks damping
+                      ["compile", "kelvin.json", "--device", single, "--uncertified"],
+                      ["compile", *field],
+                      ["check", "kelvin.json", "--device", single],
+                      ["explain", FIG_5, "--device", PANTOGRAPH, "--decomposition", "paper"]]:
+            with self.subTest(words=words):
+                advised = self.dashpot(*words, status=None)
+                written = {name: (self.folder / name).read_bytes() for name in self.files()}
+                brief = self.dashpot(*words, "--no-advice", status=None)
+                self.assertEqual((brief.returncode, brief.stdout), (advised.returncode, advised.stdout))
+                self.assertEqual({name: (self.folder / name).read_bytes() for name in self.files()}, written)
+                self.assertRegex(advised.stderr, "would |has been tried")
+                self.assertNotRegex(brief.stderr, "would |has been tried")
+                said = [[line for line in done.stderr.splitlines() if re.search("(error|warning): ", line)]
+                        for done in (advised, brief)]
+                self.assertTrue(said[0])
+                self.assertEqual(*said)
 
     def test_nothing_is_written_unless_everything_succeeds(self):
         """Fails if one bad network among several leaves files behind, or harms those of an earlier run."""

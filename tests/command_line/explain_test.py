@@ -21,7 +21,7 @@ class Changes(CommandTest):
         "network": { "parallel": [ { "spring": "K", "name": "K1" }, { "damper": "B", "name": "B1" }, { "spring": 7, "name": "K2" } ] } }"""
 
     def explained(self, *arguments):
-        return json.loads(self.dashpot("explain", *arguments, "--json").stdout)
+        return json.loads(self.dashpot("explain", *arguments, "--json", "--no-advice").stdout)
 
     def test_set(self):
         """Fails if --set does not change the element or the parameter that it names, in its unit, the last of two for one."""
@@ -93,7 +93,7 @@ class BehindAContact(CommandTest):
 
 class Json(CommandTest):
     def explained(self, *arguments):
-        return json.loads(self.dashpot("explain", *arguments, "--json").stdout)
+        return json.loads(self.dashpot("explain", *arguments, "--json", "--no-advice").stdout)
 
     def test_schema(self):
         """Fails if a key that other programs rely on is missing or of another type."""
@@ -168,7 +168,8 @@ class Json(CommandTest):
             on_device.append(random.Random(SEED).choice(others))
         for path in [FIG_5, *networks]:
             for device in [[], ["--device", PANTOGRAPH]] if path in [FIG_5, *on_device] else [[]]:
-                done = subprocess.run([DASHPOT, "explain", path, *device, "--legend"], capture_output=True, text=True)
+                done = subprocess.run([DASHPOT, "explain", path, *device, "--legend", "--no-advice"], capture_output=True,
+                                      text=True)
                 for line in done.stdout.splitlines():
                     self.assertTrue(len(line) <= 100 or " " not in line.strip(), f"{path}: {line}")
 
@@ -536,7 +537,7 @@ class Json(CommandTest):
         for number, edge in enumerate(edges):
             self.write(f"{number}.json", network(edge))
             for device in [[], ["--device", PANTOGRAPH]]:
-                text = self.dashpot("explain", f"{number}.json", "--json", *device).stdout
+                text = self.dashpot("explain", f"{number}.json", "--json", "--no-advice", *device).stdout
                 json.loads(text, parse_constant=lambda word: self.fail(f"{word} in {edge}"))
                 self.assertNotIn("null,\n      \"relaxation_rate\"", text)
 
@@ -616,8 +617,8 @@ class MotorLimits(CommandTest):
                   "brake": {"kind": "eddy_current", "max_damping": "20 N s/m"}, "mechanics": {"damping": "0.5 N s/m", "inertia": "50 g"}}
         self.write("slewing.json", json.dumps(device))
         arguments = [network, "--device", "slewing.json", "--decomposition", choice]
-        self.text = self.dashpot("explain", *arguments).stdout
-        return json.loads(self.dashpot("explain", *arguments, "--json").stdout)
+        self.text = self.dashpot("explain", *arguments, "--no-advice").stdout
+        return json.loads(self.dashpot("explain", *arguments, "--json", "--no-advice").stdout)
 
     def test_a_limit_that_never_binds(self):
         """Fails if what the motor can make anyway is said to be cut, or the largest force is not k R."""
@@ -653,7 +654,8 @@ class MotorLimits(CommandTest):
         device = json.loads((self.folder / "slewing.json").read_text())
         device["mechanics"]["damping"] = "2.7886751345948 N s/m"
         self.write("damped.json", json.dumps(device))
-        damped = json.loads(self.dashpot("explain", "wall.json", "--device", "damped.json", "--decomposition", "virtual", "--json").stdout)
+        damped = json.loads(self.dashpot("explain", "wall.json", "--device", "damped.json", "--decomposition",
+                                         "virtual", "--json", "--no-advice").stdout)
         force = damped["motor_limits"]["largest_discontinuity"]
         steps = force / 2
         self.assertAlmostEqual(force * (1 + 1.5 / steps + (0.5 + 3 ** 0.5 / 36) / steps ** 2), 24, delta=1e-6)

@@ -31,7 +31,7 @@ class StaticCurvesTest(CommandTest):
         text = self.dashpot("explain", SPHERE, "--legend").stdout
         for words in ["power 1.5", "cubics up to 0.006 m", "behind the curve", "quasi-linear law"]:
             self.assertIn(words, text)
-        told = json.loads(self.dashpot("explain", SPHERE, "--json").stdout)["static"]
+        told = json.loads(self.dashpot("explain", SPHERE, "--json", "--no-advice").stdout)["static"]
         self.assertEqual((told["stiffness"], told["reach"], told["begins"]), (400, 0.006, 0))
         self.assertLess(told["largest_error"], 5e-4)
         # w'^2 = f^2/(2 k E) is 5/4 c sqrt(u)/k of Hertz' curve.
@@ -58,7 +58,8 @@ class StaticCurvesTest(CommandTest):
     def test_certified_laws_are_verified(self):
         for network, device, name in [(SKIN, TRAINER, "skin_in_contact"), (SPHERE, TRAINER, "sphere_on_gel"), (LIGAMENT, KNEE, "ligament")]:
             with self.subTest(name):
-                self.dashpot("compile", network, "--device", device, "--certificate", "law.json", "--uncertified")
+                self.dashpot("compile", network, "--device", device, "--certificate", "law.json", "--uncertified",
+                             "--no-advice")
                 certificate = json.loads((self.folder / "law.json").read_text())["passivity"]
                 done = self.dashpot("verify", "law.json", f"{name}.hpp", status=None)
                 self.assertEqual(done.returncode == 0, certificate["certified"], done.stdout + done.stderr)
@@ -133,7 +134,8 @@ class StaticCurvesTest(CommandTest):
         self.write("at_once.json", json.dumps({**instantaneous, "name": "at_once"}))
         for network, name, device in [(SPHERE, "sphere_on_gel", TRAINER), (SKIN, "skin_in_contact", TRAINER),
                                       (LIGAMENT, "ligament", KNEE), ("cone.json", "cone", None), ("at_once.json", "at_once", None)]:
-            for choices in [[], ["--device", device, "--uncertified"] if device else ["--scalar", "float"]]:
+            on_device = ["--device", device, "--uncertified", "--no-advice"]
+            for choices in [[], on_device if device else ["--scalar", "float"]]:
                 with self.subTest(network=name, choices=choices):
                     self.dashpot("compile", network, "--target", "c99", "--with-test", *choices)
                     self.assertIn("passed", self.run_in_c(name))
@@ -155,7 +157,8 @@ class StaticCurvesTest(CommandTest):
                 self.assertIn("after a jump", self.failed_in_c(name, decay, repr(float(decay) * (1 - 1e-6))))
                 if wrong:
                     self.assertIn(wrong, self.failed_in_c(name, "tangent_squared *", "1.001 * tangent_squared *"))
-        self.dashpot("compile", SPHERE, "--device", TRAINER, "--uncertified", "--target", "c99", "--with-test")
+        self.dashpot("compile", SPHERE, "--device", TRAINER, "--uncertified", "--no-advice", "--target", "c99",
+                     "--with-test")
         self.assertIn("passed", self.run_in_c("sphere_on_gel"))
 
     # If this fails, a command does not take parameters behind a curve, or one claims a proof that there is not.
@@ -172,7 +175,7 @@ class StaticCurvesTest(CommandTest):
         self.assertAlmostEqual(float(answer[6000][column]), 0.16, delta=1e-3)  # (2/5)^2 N, 2 mm deep
         self.dashpot("run", "cone.json", "--device", TRAINER, "--for", "0.2", "--fast")
         self.dashpot("check", "cone.json")
-        told = json.loads(self.dashpot("explain", "cone.json", "--json").stdout)
+        told = json.loads(self.dashpot("explain", "cone.json", "--json", "--no-advice").stdout)
         self.assertEqual(told["static"]["stiffness"], 300)
         self.dashpot("report", "cone.json", "-o", "page.html")
         self.assertIn("emitted map", (self.folder / "page.html").read_text())
@@ -234,7 +237,8 @@ class StaticCurvesTest(CommandTest):
             self.write("curve.json", json.dumps({
                 "dashpot": 1, "name": "curve", "static": {"exponential": "300 1/m", "force": "1 N", "at": "6 mm"},
                 "network": {"parallel": [{"spring": 200}, {"series": [{"spring": 20}, {"slip": holds}]}]}}))
-            told = json.loads(self.dashpot("explain", "curve.json", "--device", "rig.json", "--json").stdout)
+            told = json.loads(self.dashpot("explain", "curve.json", "--device", "rig.json", "--json",
+                                           "--no-advice").stdout)
             self.assertTrue(told["certificate"]["certified"])
             needed[holds] = told["certificate"]["needed_damping"]
         # w'' of w = sqrt(2 E/k) at 6 mm, by differences; what is held over a millisecond costs half of it for each newton.
@@ -260,7 +264,7 @@ class StaticCurvesTest(CommandTest):
         self.write("motion.csv", "time,position\n" + "".join(f"{k / 1000},{u:.17g}\n" for k, u in enumerate(rows)))
         answer = self.dashpot("simulate", "flat.json", "--input", "motion.csv").stdout.splitlines()
         column = answer[0].split(",").index("force")
-        told = json.loads(self.dashpot("explain", "flat.json", "--json").stdout)["static"]
+        told = json.loads(self.dashpot("explain", "flat.json", "--json", "--no-advice").stdout)["static"]
         steepest = told["largest_scale"] ** 0.5
         worst = 0
         for u, row in list(zip(rows, answer[1:]))[20:]:  # the slip has given way

@@ -170,7 +170,8 @@ class Verify(CommandTest):
 
     def emitted(self, law, folder):
         """Header and certificate of a law, as text."""
-        self.dashpot("compile", *law, "--uncertified", "-o", folder, "--certificate", self.folder / folder / "certificate.json")
+        self.dashpot("compile", *law, "--uncertified", "--no-advice", "-o", folder,
+                     "--certificate", self.folder / folder / "certificate.json")
         header = min((self.folder / folder).glob("*.hpp"), key=lambda path: len(path.name))  # NAME.hpp is before NAME_batch.hpp
         return header.read_text(), (self.folder / folder / "certificate.json").read_text()
 

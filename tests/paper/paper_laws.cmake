@@ -49,7 +49,7 @@ function(paper_law name network)
   add_custom_command(
     OUTPUT ${folder}/${class}.hpp
     COMMAND ${CMAKE_COMMAND} -P ${PROJECT_SOURCE_DIR}/tests/responses/quietly.cmake --
-            $<TARGET_FILE:dashpot::dashpot> compile ${network} ${ARGN} -o ${folder}
+            $<TARGET_FILE:dashpot::dashpot> compile ${network} ${ARGN} --no-advice -o ${folder}
     DEPENDS dashpot::dashpot ${network} ${law_--device}
     COMMENT "Emitting ${name}"
     VERBATIM)

@@ -39,7 +39,7 @@ class C99Response(unittest.TestCase):
 
     def test_laws_pass(self):
         """Fails if the test of a law that is right does not build without a warning, or does not pass."""
-        device = ["--device", SOURCE / "runtime/devices/pantograph_brake_2009.json", "--uncertified"]
+        device = ["--device", SOURCE / "runtime/devices/pantograph_brake_2009.json", "--uncertified", "--no-advice"]
         for options in [[], ["--scalar", "float"], device]:
             for network in NETWORKS:
                 with self.subTest(network=network.stem, options=options[:2]):

@@ -309,13 +309,12 @@ void expect_same_bits(compiler::ScalarType scalar) {
     return done.output;
   };
   const char* const run = "-o laws && ./laws < input";
+  const char* const gcc = DASHPOT_GCC " -std=c99";
+  const char* const clang = DASHPOT_CLANG " -std=c99";
   // In float the code is the same, with other numbers.
-  const bool is_for_gcc = scalar == compiler::ScalarType::float64;
-  for (const bool by_gcc : {true, false}) {
-    const char* const compiler = by_gcc ? DASHPOT_GCC " -std=c99" : DASHPOT_CLANG " -std=c99";
-    if (by_gcc != is_for_gcc && !is_thorough()) continue;
-    EXPECT_EQ(first_difference(finished(compiler, run), expected), "") << compiler;
-  }
+  std::vector<const char*> compilers{scalar == compiler::ScalarType::float64 ? gcc : clang};
+  if (is_thorough()) compilers = {gcc, clang};
+  for (const char* compiler : compilers) EXPECT_EQ(first_difference(finished(compiler, run), expected), "") << compiler;
   // Of C++ what is read is another language; what is made of it is gcc's.
   const char* const as_cpp = DASHPOT_GXX " -x c++ -std=c++17";
   if (is_thorough()) EXPECT_EQ(first_difference(finished(as_cpp, run), expected), "") << as_cpp;

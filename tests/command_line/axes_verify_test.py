@@ -65,8 +65,8 @@ class AxesVerify(CommandTest):
         self.assertIn("[nothing-proved]", told)
         self.assertIn("--decomposition faithful", told)
         for choice, certified in (("paper", False), ("diagonal", False), ("faithful", True)):
-            told = json.loads(self.dashpot("explain", "relaxing.json", "--device", "near.json", "--decomposition", choice,
-                                           "--json").stdout)
+            told = json.loads(self.dashpot("explain", "relaxing.json", "--device", "near.json",
+                                           "--decomposition", choice, "--json").stdout)
             self.assertEqual(told["certified"], certified)
             self.assertEqual(told["chosen"], "diagonal")
         self.assertEqual([port["damping"] for port in told["ports"]], [0.4, 0.4])

@@ -168,8 +168,8 @@ class Json(CommandTest):
             on_device.append(random.Random(SEED).choice(others))
         for path in [FIG_5, *networks]:
             for device in [[], ["--device", PANTOGRAPH]] if path in [FIG_5, *on_device] else [[]]:
-                done = subprocess.run([DASHPOT, "explain", path, *device, "--legend", "--no-advice"], capture_output=True,
-                                      text=True)
+                done = subprocess.run([DASHPOT, "explain", path, *device, "--legend", "--no-advice"],
+                                      capture_output=True, text=True)
                 for line in done.stdout.splitlines():
                     self.assertTrue(len(line) <= 100 or " " not in line.strip(), f"{path}: {line}")
 

@@ -127,7 +127,7 @@ class Units(unittest.TestCase):
             self.assertEqual(sum(a == b for a, b in zip(found, expected, strict=True)), ROWS)
 
     def test_the_networks_of_the_paper(self):
-        """Fails if a unit of one of them breaks a rule of the standard, or answers otherwise than `simulate`, by one bit.
+        """Fails if a unit of one of them breaks a rule of the standard, or a bit of it is not that of `simulate`.
 
         Every fourth network, in either version and scalar; tests/targets/ plays all."""
         rows = motion()[:300]

@@ -42,8 +42,8 @@ ROWS, PERIOD = 400, 0.001
 CHANGES = {"friction_tunable": {130: {"yield": 0.4, "presliding": 4321.5, "drag": 3.3}, 260: {"yield": 2.7, "presliding": 700.1, "drag": 0.0}},
            "second_order_maxwell_tunable": {130: {"K1": 77.7, "B2": 1.3}, 260: {"K1": 0.9, "B2": 17.1}}}
 IS_LONG = os.environ.get("DASHPOT_LONG") == "1"
-HOST_FLAGS = ["-O2" if IS_LONG else "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow",
-              "-Wdouble-promotion", "-Werror"]
+HOST_FLAGS = ["-O2" if IS_LONG else "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion",
+              "-Wshadow", "-Wdouble-promotion", "-Werror"]
 
 
 def motion():

@@ -10,6 +10,7 @@ namespace dashpot::compiler {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
+using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
 
 // Of a few rows and columns: what large products prepare would cost more than it saves.
@@ -99,14 +100,16 @@ class Barrier {
     return traces;
   }
 
-  // factor · tr(E X E′ Xᵀ) for all pairs of the basis, in the lower half.
-  void add_products(const Matrix& X, double factor, Matrix& to) const {
+  // factor · tr(E X E′ Xᵀ) for all pairs of the basis, in the lower half: most of the work of a step.
+  void add_products(const ByRows& X, double factor, Matrix& to) const {
     for (std::size_t k = 0; k < entries_.size(); ++k) {
-      const auto [i, j] = entries_[k];
+      const auto& [i, j] = entries_[k];
+      const double *of_i = X.row(i).data(), *of_j = X.row(j).data();
+      const double once = i == j ? factor : 2 * factor;
       for (std::size_t l = 0; l <= k; ++l) {
-        const auto [r, s] = entries_[l];
-        const double share = (i == j ? 1 : 2) * (r == s ? 0.5 : 1);
-        to(Eigen::Index(k), Eigen::Index(l)) += factor * share * (X(j, r) * X(i, s) + X(j, s) * X(i, r));
+        const auto& [r, s] = entries_[l];
+        const double share = r == s ? once / 2 : once;
+        to(Eigen::Index(k), Eigen::Index(l)) += share * (of_j[r] * of_i[s] + of_j[s] * of_i[r]);
       }
     }
   }

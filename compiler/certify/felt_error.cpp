@@ -13,6 +13,7 @@ using std::numbers::pi;
 
 constexpr int felt_points_per_decade = 100;
 constexpr double beyond_measure = 1e300;  // an error that is no double [1]
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 std::vector<double> logarithmic(double low, double high) {
   if (!(high > low)) return {low};
@@ -79,6 +80,8 @@ Complex departure(const Complex& felt, const Complex& rendered) {
   return std::abs(error) <= 8 * std::numeric_limits<double>::epsilon() * std::abs(rendered) ? Complex(0) : error;
 }
 
+double error_of(double square) { return std::min(std::sqrt(square), beyond_measure); }
+
 }  // namespace
 
 FeltError::FeltError(const MotorConstants& motor, const LinearForm& rendered, const LinearForm& whole,
@@ -119,22 +122,23 @@ FeltError::Place FeltError::place(const MotorConstants& motor, Complex rendered,
   return {departure(late * law, rendered) / reference, -late * estimated / reference, rate / reference};
 }
 
-double FeltError::at(const Place& place, double damping, double added) const {
+// Infinite also where it is no number.
+double FeltError::square_at(const Place& place, double damping, double added) const {
   const Complex exact = place.without_brake + damping * place.of_motor + (damping + added) * place.of_brake;
   const Complex off = tolerance_ * (damping + added) * place.of_brake;
-  const double error = std::sqrt(std::max(std::norm(exact + off), std::norm(exact - off)));
-  return error < beyond_measure ? error : beyond_measure;  // also of what is not finite
+  const double square = std::max(std::norm(exact + off), std::norm(exact - off));
+  return square < endless ? square : endless;
 }
 
 double FeltError::largest(double damping, double added) const {
   double largest = 0;
-  for (const Place& place : places_) largest = std::max(largest, at(place, damping, added));
-  return largest;
+  for (const Place& place : places_) largest = std::max(largest, square_at(place, damping, added));
+  return error_of(largest);
 }
 
 std::vector<double> FeltError::over_band(double damping, double added) const {
   std::vector<double> errors;
-  for (const Place& place : places_) errors.push_back(at(place, damping, added));
+  for (const Place& place : places_) errors.push_back(error_of(square_at(place, damping, added)));
   return errors;
 }
 

@@ -44,7 +44,7 @@ class FeltError {
   Place place(const MotorConstants& motor, std::complex<double> rendered, std::complex<double> reference,
               double angular_frequency) const;
   std::complex<double> estimate(double angular_frequency, std::complex<double> difference) const;
-  double at(const Place& place, double damping, double added) const;
+  double square_at(const Place& place, double damping, double added) const;  // of the error [1]
 
   const PortDevice& device_;
   double sample_period_;                     // [s]

@@ -775,7 +775,7 @@ void warn_of_driving_uncertified(const Compilation& c, const Choices& choices, D
   diagnostics.report<DiagnosticCode::drives_uncertified>(
       place, c.network.name, c.device->name, certificate.bound.needed, port_units(c.network.port_motion).damping,
       certificate.assured);
-  diagnostics.note<DiagnosticCode::compile_says_what_would_do>({});
+  if (diagnostics.wants_advice()) diagnostics.note<DiagnosticCode::compile_says_what_would_do>({});
 }
 
 }  // namespace dashpot::compiler

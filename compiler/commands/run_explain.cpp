@@ -37,7 +37,7 @@ ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& 
     if (options.as) diagnostics.report<DiagnosticCode::option_on_two_axes>({}, "--as");
     const auto axes = options.as ? std::nullopt : compile_axes(*file, options, device, diagnostics);
     if (!axes || diagnostics.has_errors()) return ExitStatus::input_refused;
-    if (axes->has_device && !axes->certificate.certified)
+    if (axes->has_device && !axes->certificate.certified && diagnostics.wants_advice())
       diagnostics.report<DiagnosticCode::compile_says_what_would_do>({});
     return write_standard_output(explain_axes(*axes, options.json, options.legend), diagnostics);
   }
@@ -52,7 +52,7 @@ ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& 
   }
   warn_of_felt_error(*compilation, choices, diagnostics);
   tell_what_is_proved_at_the_limit(*compilation, choices, diagnostics);
-  if (compilation->device && !compilation->certificate.certified)
+  if (compilation->device && !compilation->certificate.certified && diagnostics.wants_advice())
     diagnostics.report<DiagnosticCode::compile_says_what_would_do>({});
   weigh_all_candidates(*compilation, choices);
   return write_standard_output(options.json ? explain_json(*compilation) : explain_text(*compilation, options.legend),

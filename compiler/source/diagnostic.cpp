@@ -5,6 +5,15 @@
 
 namespace dashpot::compiler {
 
+std::string_view name_of(Severity severity) {
+  switch (severity) {
+    case Severity::error: return "error";
+    case Severity::warning: return "warning";
+    case Severity::note: return "note";
+  }
+  return {};
+}
+
 const SourceFile& Diagnostics::keep(SourceFile file) {
   kept_.push_back(std::make_shared<const SourceFile>(std::move(file)));
   return *kept_.back();

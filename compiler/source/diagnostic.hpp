@@ -14,6 +14,7 @@
 namespace dashpot::compiler {
 
 enum class Severity { error, warning, note };
+std::string_view name_of(Severity severity);  // in messages
 
 enum class DiagnosticCode {
 #define DASHPOT_DIAGNOSTIC(code, severity, text) code,

@@ -43,7 +43,7 @@ Json json_of(const Note& note) {
 
 Json json_of(const Diagnostic& diagnostic) {
   Json json = place_of(diagnostic.span);
-  json["severity"] = diagnostic.severity == Severity::error ? "error" : "warning";
+  json["severity"] = name_of(diagnostic.severity);
   json["code"] = code_name(diagnostic.code);
   json["message"] = message_of(diagnostic.span, diagnostic.text);
   json["notes"] = Json::array();

@@ -13,15 +13,6 @@ namespace {
 constexpr std::size_t widest_line = 120;    // columns of a source line that are shown
 constexpr std::size_t context_before = 40;  // columns kept before the place where a longer line is cut
 
-std::string_view severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::error: return "error";
-    case Severity::warning: return "warning";
-    case Severity::note: return "note";
-  }
-  return {};
-}
-
 bool is_control(char byte) { return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F; }
 
 // What a terminal shows for the code point at the start of `text`: never a control character, never a stray byte.
@@ -95,7 +86,7 @@ void append_entry(std::string& out, const Span& span, Severity severity, std::st
     fmt::format_to(std::back_inserter(out), "{}:{}:{}: ", joined(columns_of(span.file->path())), begin.line,
                    begin.column);
   }
-  fmt::format_to(std::back_inserter(out), "{}: {}{}\n", severity_name(severity), joined(columns_of(text)), code);
+  fmt::format_to(std::back_inserter(out), "{}: {}{}\n", name_of(severity), joined(columns_of(text)), code);
   if (span.file != nullptr && words.empty()) append_picture(out, span);
 }
 

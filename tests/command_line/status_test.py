@@ -260,6 +260,15 @@ class Diagnostics(CommandTest):
                               "notes": []})
             self.assertEqual(BROKEN[found["column"] - 1:found["end_column"] - 1], '"-1 N/m"')
 
+    def test_json_has_the_severities_of_text(self):
+        """Fails if a note that stands alone passes for a warning, or a warning for an error."""
+        explain = ["explain", FIG_5, "--device", SOURCE / "runtime/devices/phantom_single_motor.json"]
+        in_text = re.findall(r"(?m)^(?:\S+: )?(error|warning|note): .* \[(\S+)\]$", self.dashpot(*explain).stderr)
+        in_json = json.loads(self.dashpot(*explain, "--diagnostics", "json").stderr)
+        self.assertIn(("note", "compile-says-what-would-do"), in_text)
+        self.assertIn("warning", [severity for severity, code in in_text])
+        self.assertEqual([(told["severity"], told["code"]) for told in in_json], in_text)
+
     def test_json_without_a_place(self):
         """Fails if a diagnostic that belongs to no file claims one."""
         found, = json.loads(self.dashpot("check", "absent.json", "--diagnostics=json", status=INPUT_REFUSED).stderr)

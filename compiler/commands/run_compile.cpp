@@ -213,13 +213,14 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
     if (options.target->explains) choices.compared = Compared::variations;  // as `explain` does
     const std::optional<Compilation> compilation =
         file ? compile(*file, choices, device.device, diagnostics, times) : std::nullopt;
-    times.enter("emission");
     if (!compilation) continue;
+    times.enter("advice");
     warn_of_felt_error(*compilation, options.choices, diagnostics);
+    const bool is_insisted_on = !options.print && !options.uncertified;
+    if (is_insisted_on && !insist_on_certificate(*compilation, options.choices, diagnostics)) continue;
+    times.enter("emission");
     if (options.print) {
       shown += stage_text(*compilation, *options.print);
-    } else if (!options.uncertified && !insist_on_certificate(*compilation, options.choices, diagnostics)) {
-      continue;
     } else if (const auto emitted =
                    options.target->emit(*compilation, emission_of(*compilation, options), diagnostics)) {
       if (const std::string why = why_no_motion_is_played(*compilation); options.emission.with_test && !why.empty())

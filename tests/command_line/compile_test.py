@@ -165,7 +165,8 @@ class Files(CommandTest):
 
     def test_the_timings(self):
         """Fails if --timings leaves a stage out, changes what is written, or is printed where output belongs."""
-        stages = ["files", "front end", "normal form", "decomposition", "discretisation", "certificate", "emission", "total"]
+        stages = ["files", "front end", "normal form", "decomposition", "discretisation", "certificate", "advice",
+                  "emission", "total"]
         self.dashpot("compile", "kelvin.json", "maxwell.json", "-o", "untimed")
         text = self.dashpot("compile", "kelvin.json", "maxwell.json", "--timings", "text", "-o", "timed")
         self.assertEqual([line[:16].rstrip() for line in text.stderr.splitlines()], stages)
@@ -193,7 +194,8 @@ class Files(CommandTest):
                       ["compile", "kelvin.json", "--device", single, "--uncertified"],
                       ["compile", *field],
                       ["check", "kelvin.json", "--device", single],
-                      ["explain", FIG_5, "--device", PANTOGRAPH, "--decomposition", "paper"]]:
+                      ["explain", FIG_5, "--device", PANTOGRAPH, "--decomposition", "paper"],
+                      ["explain", "kelvin.json", "--device", single]]:  # says which commands do
             with self.subTest(words=words):
                 advised = self.dashpot(*words, status=None)
                 written = {name: (self.folder / name).read_bytes() for name in self.files()}

@@ -225,7 +225,11 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
                    options.target->emit(*compilation, emission_of(*compilation, options), diagnostics)) {
       if (const std::string why = why_no_motion_is_played(*compilation); options.emission.with_test && !why.empty())
         diagnostics.report<DiagnosticCode::test_without_motion>({}, compilation->network.name, why);
-      if (options.uncertified) warn_of_uncertified(*compilation, options.choices, diagnostics);
+      if (options.uncertified) {
+        times.enter("advice");
+        warn_of_uncertified(*compilation, options.choices, diagnostics);
+        times.enter("emission");
+      }
       axes.one = true;
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
       if (options.certificate) {

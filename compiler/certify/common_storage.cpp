@@ -100,7 +100,8 @@ class Barrier {
     return traces;
   }
 
-  // factor · tr(E X E′ Xᵀ) for all pairs of the basis, in the lower half: most of the work of a step.
+  // factor · tr(E X E′ Xᵀ) for all pairs of the basis, in the lower half. X lies by rows, as it is
+  // read.
   void add_products(const ByRows& X, double factor, Matrix& to) const {
     for (std::size_t k = 0; k < entries_.size(); ++k) {
       const auto& [i, j] = entries_[k];

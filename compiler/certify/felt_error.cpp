@@ -122,7 +122,7 @@ FeltError::Place FeltError::place(const MotorConstants& motor, Complex rendered,
   return {departure(late * law, rendered) / reference, -late * estimated / reference, rate / reference};
 }
 
-// Infinite also where it is no number.
+// Infinite, too, where what is felt is infinite or NaN.
 double FeltError::square_at(const Place& place, double damping, double added) const {
   const Complex exact = place.without_brake + damping * place.of_motor + (damping + added) * place.of_brake;
   const Complex off = tolerance_ * (damping + added) * place.of_brake;

@@ -14,7 +14,7 @@
 namespace dashpot::compiler {
 
 enum class Severity { error, warning, note };
-std::string_view name_of(Severity severity);  // in messages
+std::string_view name_of(Severity severity);  // as text and JSON have it
 
 enum class DiagnosticCode {
 #define DASHPOT_DIAGNOSTIC(code, severity, text) code,

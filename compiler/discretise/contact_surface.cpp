@@ -29,7 +29,7 @@ ExpressionId ContactSurface::depth_now() {
   const ExpressionId position = writer_.read(writer_.law().position);
   if (at_ == 0) return position;
   return writer_.subtract(position, writer_.constant("surface_at", writer_.length(), "where the unloaded surface lies",
-                                                     Real(at_), ConstantRole::place));
+                                                     Real(at_), ConstantRole::surface_place));
 }
 
 ExpressionId ContactSurface::none() {
@@ -90,10 +90,9 @@ void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_
     motor = writer_.add(motor, writer_.multiply(gain, writer_.read(law.velocity)));
   }
   if (slips.steady > 0)
-    felt =
-        writer_.add(felt, writer_.multiply(writer_.constant("slips_feedthrough", writer_.damping(), "b∞ behind slips",
-                                                            slips.steady, ConstantRole::feedthrough),
-                                           writer_.read(law.velocity)));
+    felt = writer_.add(felt, writer_.multiply(writer_.constant("slips_feedthrough", writer_.damping(),
+                                                               "b∞ behind slips", slips.steady),
+                                              writer_.read(law.velocity)));
   if (slips.changing != nothing) felt = writer_.add(felt, writer_.multiply(slips.changing, writer_.read(law.velocity)));
   if (slips.compensation != nothing) {
     const ExpressionId taken_back = writer_.multiply(slips.compensation, writer_.read(law.velocity));
@@ -133,9 +132,8 @@ ExpressionId ContactSurface::release_of(VariableId opposing, ExpressionId felt, 
   writer_.assign(writer_.law().output, pull, writer_.subtract(none, felt), "−(f′ + b∞ v̂)");
   ExpressionId opened = writer_.read(gap_);
   if (encoder_step_ > 0) {
-    const ExpressionId step =
-        writer_.constant("encoder_step", writer_.length(), "of the gap before the command lets go", Real(encoder_step_),
-                         ConstantRole::place);
+    const ExpressionId step = writer_.constant("encoder_step", writer_.length(),
+                                               "of the gap before the command lets go", Real(encoder_step_));
     const ExpressionId pushed = writer_.where(writer_.read(opposing), none, writer_.read(gap_));
     opened = writer_.where(writer_.subtract(writer_.read(gap_), step), writer_.read(gap_), pushed);
   }

@@ -37,8 +37,9 @@ CoupledSlips::Block CoupledSlips::block_of(const NormalTree& part, const Real& s
   Names names;
   for (const Mode& mode : part.form.modes)
     names.push_back(writer_.unique(joined(name_of(mode.elements, network_), "mode")));
-  block.modes = std::make_unique<ModeBank>(writer_, part.form.modes, StateInput::position, sample_period,
-                                           std::move(names), block.name);
+  block.modes =
+      std::make_unique<ModeBank>(writer_, part.form.modes, StateInput::position, sample_period, std::move(names),
+                                 block.name, std::vector<Subject>{OfElements{part.elements}});
   return block;
 }
 
@@ -79,6 +80,7 @@ ExpressionId CoupledSlips::write_output(VariableId change, VariableId surface_ch
   for (const Block& block : blocks_) coupling.held.push_back(write_held(block));
   for (const Block& block : blocks_) coupling.elongation.push_back(block.elongation);
   for (const NormalTree* slip : table_.slips) coupling.slips.push_back(slip->elements);
+  for (const Block& block : blocks_) coupling.blocks.push_back(block.part->elements);
   coupling.sign = signs_;
   coupling.surface_change = surface_change;
   const VariableId force =
@@ -107,8 +109,9 @@ void CoupledSlips::write_update() {
     if (block.elongation == nothing) continue;
     const VariableId elongation = writer_.kept(block.elongation);
     if (block.has_spring()) {
-      const ExpressionId stiffness = writer_.constant(joined(block.name, "stiffness"), writer_.stiffness(), "k0",
-                                                      block.form().static_stiffness, ConstantRole::spring_stiffness);
+      const ExpressionId stiffness =
+          writer_.constant(joined(block.name, "stiffness"), writer_.stiffness(), "k0", block.form().static_stiffness,
+                           {ConstantRole::spring_stiffness, OfElements{block.part->elements}});
       const ExpressionId force =
           writer_.add(writer_.read(block.spring_force), writer_.multiply(stiffness, writer_.read(elongation)));
       writer_.assign(writer_.law().update, block.spring_force, writer_.flush(force), "F ← F + k δ",
@@ -129,9 +132,9 @@ ExpressionId CoupledSlips::energy() {
 
 // ½ F0²/k0
 ExpressionId CoupledSlips::spring_energy(const Block& block) {
-  const ExpressionId weight =
-      writer_.constant(joined(block.name, "compliance"), writer_.compliance(), "1/(2 k)",
-                       1 / (2 * block.form().static_stiffness), ConstantRole::spring_compliance);
+  const ExpressionId weight = writer_.constant(joined(block.name, "compliance"), writer_.compliance(), "1/(2 k)",
+                                               1 / (2 * block.form().static_stiffness),
+                                               {ConstantRole::spring_compliance, OfElements{block.part->elements}});
   return writer_.multiply(writer_.multiply(weight, writer_.read(block.spring_force)), writer_.read(block.spring_force));
 }
 

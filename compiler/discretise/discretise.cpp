@@ -128,8 +128,8 @@ class LawBuilder {
     if (!slips_.empty()) {
       sum = slips_.write_push(contact_->approach(), contact_->change(), {linear_stiffness(), write_held()});
       contact_->write_surface();
-      sum = plus_product(ConstantRole::feedthrough, sum, "feedthrough_stiffness", writer_.stiffness(), "−b∞/h",
-                         -feedthrough / sample_period_, contact_->change());
+      sum = plus_product(ConstantRole::feedthrough_stiffness, sum, "feedthrough_stiffness", writer_.stiffness(),
+                         "−b∞/h", -feedthrough / sample_period_, contact_->change());
       sum = brake_.without_feedthrough(sum, contact_->now(), contact_->change());
     } else {
       contact_->write_change(linear_stiffness(), write_held());

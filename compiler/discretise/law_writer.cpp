@@ -53,34 +53,36 @@ VariableId LawWriter::vector(const VectorName& name, const std::string& unit, co
 }
 
 ExpressionId LawWriter::constant(const std::string& name, const std::string& unit, const std::string& meaning,
-                                 const Real& value, ConstantRole role) {
+                                 const Real& value, Derivation from) {
   const auto known = std::find_if(law_.coefficients.begin(), law_.coefficients.end(),
                                   [&](const Coefficient& coefficient) { return coefficient.name == name; });
   const CoefficientId id = known != law_.coefficients.end()
                                ? law_.coefficients.id_of(*known)
-                               : add_constants({name, unit, meaning, {}, {}, role}, {value});
+                               : add_constants({name, unit, meaning, {}, {}}, {value}, std::move(from));
   return law_.expressions.add({Operation::constant, {}, {}, id});
 }
 
 ExpressionId LawWriter::constants(const VectorName& name, const std::string& unit, const std::string& meaning,
-                                  const std::vector<Real>& values, const Names& names, ConstantRole role,
-                                  std::size_t bank) {
-  const CoefficientId id =
-      add_constants({joined(name.whose, name.what), unit, meaning, {}, suffixed(names, name.what), role, bank}, values);
+                                  const std::vector<Real>& values, const Names& names, Derivation from) {
+  const CoefficientId id = add_constants({joined(name.whose, name.what), unit, meaning, {}, suffixed(names, name.what)},
+                                         values, std::move(from));
   return law_.expressions.add({Operation::constant, {}, {}, id});
 }
 
 ExpressionId LawWriter::pick(const std::string& name, const std::string& unit, const std::string& meaning,
-                             const std::vector<Real>& values, ExpressionId place, ConstantRole role) {
+                             const std::vector<Real>& values, ExpressionId place, Derivation from) {
   const auto known = std::find_if(law_.coefficients.begin(), law_.coefficients.end(),
                                   [&](const Coefficient& coefficient) { return coefficient.name == name; });
   const CoefficientId table = known != law_.coefficients.end()
                                   ? law_.coefficients.id_of(*known)
-                                  : add_constants({name, unit, meaning, {}, {}, role}, values);
+                                  : add_constants({name, unit, meaning, {}, {}}, values, std::move(from));
   return law_.expressions.add({Operation::pick, {place}, {}, table});
 }
 
-CoefficientId LawWriter::add_constants(Coefficient coefficient, const std::vector<Real>& values) {
+CoefficientId LawWriter::add_constants(Coefficient coefficient, const std::vector<Real>& values, Derivation from) {
+  coefficient.role = from.role;
+  coefficient.bank = from.bank;
+  coefficient.of = std::move(from.of);
   for (const Real& value : values) coefficient.values.push_back(rounded(value, law_.scalar));
   return law_.coefficients.add(std::move(coefficient));
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "law/update_law.hpp"
@@ -27,6 +28,19 @@ using Names = std::vector<std::string>;
 struct VectorName {
   std::string whose;
   std::string what;
+};
+
+// Where a constant comes from: its role in the law's equations and, of what belongs to a part of the network, that
+// part.
+struct Derivation {
+  Derivation(ConstantRole role_of_it) : role(role_of_it) {}
+  Derivation(ConstantRole role_of_it, Subject one) : role(role_of_it), of{std::move(one)} {}
+  Derivation(ConstantRole role_of_it, std::vector<Subject> one_a_value, std::size_t bank_of_it = port_bank)
+      : role(role_of_it), of(std::move(one_a_value)), bank(bank_of_it) {}
+
+  ConstantRole role;
+  std::vector<Subject> of = {};
+  std::size_t bank = port_bank;
 };
 
 class LawWriter {
@@ -70,17 +84,15 @@ class LawWriter {
   ExpressionId sum(VariableId vector) { return law_.expressions.add({Operation::sum, {}, vector}); }
   // The constant of that name, made where there is none yet.
   ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, const Real& value,
-                        ConstantRole role = ConstantRole::brake_choice);
-  // `bank`: of modes, whose constants these are.
+                        Derivation from = ConstantRole::brake_choice);
   ExpressionId constants(const VectorName& name, const std::string& unit, const std::string& meaning,
                          const std::vector<Real>& values, const Names& names,
-                         ConstantRole role = ConstantRole::brake_choice, std::size_t bank = port_bank);
+                         Derivation from = ConstantRole::brake_choice);
   std::size_t new_bank() { return ++last_bank_; }
 
   // A table, and the place of it that an expression says.
   ExpressionId pick(const std::string& name, const std::string& unit, const std::string& meaning,
-                    const std::vector<Real>& values, ExpressionId place,
-                    ConstantRole role = ConstantRole::brake_choice);
+                    const std::vector<Real>& values, ExpressionId place, Derivation from = ConstantRole::brake_choice);
 
   // The variable that an expression is, or `nothing` where it is more than that.
   VariableId reads(ExpressionId expression) const;
@@ -98,7 +110,7 @@ class LawWriter {
   ExpressionId node(Operation operation, const std::array<ExpressionId, 3>& operands) {
     return law_.expressions.add({operation, operands});
   }
-  CoefficientId add_constants(Coefficient coefficient, const std::vector<Real>& values);
+  CoefficientId add_constants(Coefficient coefficient, const std::vector<Real>& values, Derivation from);
 
   UpdateLaw& law_;
   std::string length_, force_;

@@ -8,11 +8,12 @@
 namespace dashpot::compiler {
 
 ModeBank::ModeBank(LawWriter& writer, const std::vector<Mode>& modes, StateInput input, const Real& sample_period,
-                   Names names, std::string prefix)
+                   Names names, std::string prefix, std::vector<Subject> of)
     : writer_(writer),
       modes_(modes),
       names_(std::move(names)),
       prefix_(std::move(prefix)),
+      of_(std::move(of)),
       bank_(prefix_.empty() ? port_bank : writer.new_bank()) {
   for (const Mode& mode : modes_)
     coefficients_.push_back(mode_coefficients(mode, writer.law().scheme, input, sample_period));
@@ -89,7 +90,7 @@ ExpressionId ModeBank::energy() {
     weights.push_back(a < vanishing ? Real(0) : Real(1 / (2 * modes_[i].stiffness * a * a)));
   }
   const ExpressionId weight = writer_.constants({vector_name(), "energy_weight"}, writer_.compliance(), "1/(2 k a²)",
-                                                weights, names_, ConstantRole::energy_weight, bank_);
+                                                weights, names_, {ConstantRole::energy_weight, of_, bank_});
   const VariableId stored = state("energy", "", Role::local);
   const ExpressionId squared = writer_.multiply(writer_.multiply(weight, writer_.read(forces_)), writer_.read(forces_));
   writer_.assign(writer_.law().energy, stored, squared, "F²/(2k)", origins());
@@ -138,7 +139,7 @@ ExpressionId ModeBank::per_mode(ConstantRole role, const char* name, const std::
                                 ValueOf value_of) {
   std::vector<Real> values;
   for (const ModeCoefficients& mode : coefficients_) values.push_back(value_of(mode));
-  return writer_.constants({vector_name(), name}, unit, meaning, values, names_, role, bank_);
+  return writer_.constants({vector_name(), name}, unit, meaning, values, names_, {role, of_, bank_});
 }
 
 VariableId ModeBank::state(const char* name, const char* meaning, Role role) {

@@ -15,9 +15,9 @@ namespace dashpot::compiler {
 class ModeBank {
  public:
   // `names`: one emitted name a mode. `prefix` goes before the names of the bank's own variables; empty for the modes
-  // at the port.
+  // at the port. `of`: the block or the part that the modes are of; nothing at the port.
   ModeBank(LawWriter& writer, const std::vector<Mode>& modes, StateInput input, const Real& sample_period, Names names,
-           std::string prefix);
+           std::string prefix, std::vector<Subject> of = {});
 
   bool empty() const { return modes_.empty(); }
   bool follows_position() const;  // some mode is driven by displacement
@@ -49,6 +49,7 @@ class ModeBank {
   std::vector<ModeCoefficients> coefficients_;
   Names names_;
   std::string prefix_;
+  std::vector<Subject> of_;
   std::size_t bank_;
   VariableId decayed_sum_ = nothing, forces_ = nothing, errors_ = nothing;
 };

@@ -38,11 +38,32 @@ NetworkedSlips::NetworkedSlips(LawWriter& writer, const Network& network, const 
   for (const Tie& tie : form_.dampers) add_stiffness(tie.a, tie.b, tie.value / sample_period_);
 }
 
+NodeIndex NetworkedSlips::node_of(std::size_t terminal) const {
+  return terminal == form_.terminals.size() ? ground : form_.terminals[terminal];
+}
+
+Subject NetworkedSlips::subject_of(const Tie& tie) const { return OfTie{elements_, node_of(tie.a), node_of(tie.b)}; }
+
+OfPartMode NetworkedSlips::subject_of(std::size_t mode) const {
+  const ElementList& elements = form_.modes[mode].elements;
+  const auto before = std::count_if(form_.modes.begin(), form_.modes.begin() + static_cast<std::ptrdiff_t>(mode),
+                                    [&](const MultiportMode& other) { return other.elements == elements; });
+  return {elements_, elements, static_cast<std::size_t>(before)};
+}
+
+Derivation NetworkedSlips::weight_of(const NetworkMode& mode, std::size_t terminal) const {
+  OfPartMode subject = subject_of(static_cast<std::size_t>(&mode - modes_.data()));
+  subject.node = node_of(terminal);
+  return {ConstantRole::mode_weight, std::move(subject)};
+}
+
 // Of all terminals; the tool's own is the last.
 void NetworkedSlips::number_ends() {
   for (NodeIndex node : form_.terminals)
     end_names_.push_back(writer_.unique(node == tool ? "tool" : network_.nodes[node]));
   step_.node_count = static_cast<int>(form_.terminals.size()) - (is_pushed_ ? 0 : 1);
+  step_.elements = elements_;
+  step_.end_nodes.assign(form_.terminals.begin(), form_.terminals.begin() + step_.node_count);
   const auto nodes = static_cast<std::size_t>(step_.node_count);
   between_.assign(nodes * nodes, Real(0));
   to_tool_.assign(nodes, Real(0));
@@ -78,9 +99,10 @@ void NetworkedSlips::add_modes() {
       for (std::size_t b = a + 1; b < mode.weights.size(); ++b)
         add_stiffness(a, b, -mode.weights[a] * mode.weights[b] * gain);
     const std::string name = writer_.unique(joined(name_of(mode.elements, network_), "mode"));
-    modes_.push_back({mode, name,
-                      std::make_unique<ModeBank>(writer_, std::vector<Mode>{plain}, StateInput::position,
-                                                 sample_period_, Names{name}, name)});
+    modes_.push_back(
+        {mode, name,
+         std::make_unique<ModeBank>(writer_, std::vector<Mode>{plain}, StateInput::position, sample_period_,
+                                    Names{name}, name, std::vector<Subject>{subject_of(modes_.size())})});
   }
 }
 
@@ -167,7 +189,7 @@ ExpressionId NetworkedSlips::held_at(std::size_t terminal) {
     if (mode.mode.weights[terminal] == 0) continue;
     const ExpressionId weight =
         writer_.constant(joined(mode.name, joined("weight", end_names_[terminal])), "1", "of the mode there",
-                         mode.mode.weights[terminal], ConstantRole::mode_weight);
+                         mode.mode.weights[terminal], weight_of(mode, terminal));
     sum = writer_.plus(sum, writer_.multiply(weight, writer_.read(mode.bank->decayed_sum())));
   }
   return sum;
@@ -200,7 +222,7 @@ ExpressionId NetworkedSlips::drive(const NetworkMode& mode) {
   for (std::size_t i = 0; i < form_.terminals.size(); ++i) {
     if (mode.mode.weights[i] == 0) continue;
     const ExpressionId weight = writer_.constant(joined(mode.name, joined("weight", end_names_[i])), "1",
-                                                 "of the mode there", mode.mode.weights[i], ConstantRole::mode_weight);
+                                                 "of the mode there", mode.mode.weights[i], weight_of(mode, i));
     sum = writer_.plus(sum, writer_.multiply(weight, movement(i)));
   }
   return sum;
@@ -210,8 +232,9 @@ ExpressionId NetworkedSlips::drive(const NetworkMode& mode) {
 void NetworkedSlips::write_update() {
   std::vector<Statement>& update = writer_.law().update;
   for (const SpringTie& spring : springs_) {
-    const ExpressionId stiffness = writer_.constant(joined(spring.name, "stiffness"), writer_.stiffness(), "k0",
-                                                    spring.tie.value, ConstantRole::spring_stiffness);
+    const ExpressionId stiffness =
+        writer_.constant(joined(spring.name, "stiffness"), writer_.stiffness(), "k0", spring.tie.value,
+                         {ConstantRole::spring_stiffness, subject_of(spring.tie)});
     const ExpressionId force =
         writer_.add(writer_.read(spring.force), writer_.multiply(stiffness, elongation(spring.tie)));
     writer_.assign(update, spring.force, writer_.flush(force), "F ← F + k δ", {elements_});
@@ -233,8 +256,9 @@ VariableId NetworkedSlips::sign_of(const std::vector<std::size_t>& elements) con
 ExpressionId NetworkedSlips::energy() {
   ExpressionId sum = nothing;
   for (const SpringTie& spring : springs_) {
-    const ExpressionId weight = writer_.constant(joined(spring.name, "compliance"), writer_.compliance(), "1/(2 k)",
-                                                 1 / (2 * spring.tie.value), ConstantRole::spring_compliance);
+    const ExpressionId weight =
+        writer_.constant(joined(spring.name, "compliance"), writer_.compliance(), "1/(2 k)", 1 / (2 * spring.tie.value),
+                         {ConstantRole::spring_compliance, subject_of(spring.tie)});
     const ExpressionId force = writer_.read(spring.force);
     sum = writer_.plus(sum, writer_.multiply(writer_.multiply(weight, force), force));
   }

@@ -51,6 +51,10 @@ class NetworkedSlips {
     std::unique_ptr<ModeBank> bank;
   };
 
+  NodeIndex node_of(std::size_t terminal) const;
+  Subject subject_of(const Tie& tie) const;
+  OfPartMode subject_of(std::size_t mode) const;
+  Derivation weight_of(const NetworkMode& mode, std::size_t terminal) const;
   void number_ends();
   void add_links();
   void add_modes();

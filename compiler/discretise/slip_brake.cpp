@@ -184,10 +184,11 @@ ExpressionId SlipBrake::without_feedthrough(ExpressionId force, VariableId chang
   };
   const Shares& shares = shares_of(splits_.front());
   std::swap(regime_, regime_of_force_);
-  const ExpressionId stiffness = changes()
-                                     ? by_regime("feedthrough_by_regime", writer_.stiffness(), "b∞/h", over_period)
-                                     : writer_.constant(joined(prefix_, "feedthrough"), writer_.stiffness(), "b∞/h",
-                                                        over_period(shares.front(), shares));
+  const ExpressionId stiffness = changes() ? by_regime("feedthrough_by_regime", writer_.stiffness(), "b∞/h",
+                                                       over_period, ConstantRole::regime_feedthrough)
+                                           : writer_.constant(joined(prefix_, "feedthrough"), writer_.stiffness(),
+                                                              "b∞/h", over_period(shares.front(), shares),
+                                                              {ConstantRole::regime_feedthrough, of_regime({})});
   std::swap(regime_, regime_of_force_);
   return writer_.subtract(force, writer_.multiply(stiffness, writer_.read(change)));
 }
@@ -226,25 +227,37 @@ VariableId SlipBrake::variable(const std::string& what, const std::string& unit,
   return writer_.vector({prefix_, what}, unit, meaning, role, places_);
 }
 
+Subject SlipBrake::of_regime(std::optional<std::size_t> regime) const { return OfRegime{slips(), regime}; }
+
 template <class ValueOf>
-ExpressionId SlipBrake::per_place(const char* name, const std::string& unit, const char* meaning, ValueOf value_of) {
+ExpressionId SlipBrake::per_place(const char* name, const std::string& unit, const char* meaning, ValueOf value_of,
+                                  Derivation from) {
   std::vector<Real> values;
   for (const ComponentSplit* split : splits_) values.push_back(Real(value_of(shares_of(split))));
-  return writer_.constants({prefix_, name}, unit, meaning, values, places_);
+  return writer_.constants({prefix_, name}, unit, meaning, values, places_, std::move(from));
 }
 
 // Of one slip a choice between its two values, of several a table.
 template <class ValueOf>
-ExpressionId SlipBrake::by_regime(const char* name, const std::string& unit, const char* meaning, ValueOf value_of) {
+ExpressionId SlipBrake::by_regime(const char* name, const std::string& unit, const char* meaning, ValueOf value_of,
+                                  ConstantRole role) {
+  const bool is_chosen = role == ConstantRole::brake_choice;
+  const auto from = [&](std::size_t regime) {
+    return is_chosen ? Derivation(role) : Derivation(role, of_regime(regime));
+  };
   const auto at = [&](std::size_t regime) {
     return [&, regime](const Shares& shares) { return value_of(shares[regime], shares); };
   };
   if (splits_.front()->regimes.slips.size() == 1)
-    return writer_.where(regime_, per_place((std::string("sliding_") + name).c_str(), unit, meaning, at(1)),
-                         per_place((std::string("stuck_") + name).c_str(), unit, meaning, at(0)));
+    return writer_.where(regime_, per_place((std::string("sliding_") + name).c_str(), unit, meaning, at(1), from(1)),
+                         per_place((std::string("stuck_") + name).c_str(), unit, meaning, at(0), from(0)));
   std::vector<Real> values;
-  for (const BrakeShare& share : splits_.front()->shares) values.push_back(value_of(share, splits_.front()->shares));
-  return writer_.pick(joined(prefix_, name), unit, meaning, values, regime_);
+  std::vector<Subject> subjects;
+  for (const BrakeShare& share : splits_.front()->shares) {
+    if (!is_chosen) subjects.push_back(of_regime(values.size()));
+    values.push_back(value_of(share, splits_.front()->shares));
+  }
+  return writer_.pick(joined(prefix_, name), unit, meaning, values, regime_, {role, std::move(subjects)});
 }
 
 }  // namespace dashpot::compiler

@@ -62,10 +62,13 @@ class SlipBrake {
   void write_damping();
   void write_way();
   void write_compensation();
+  Subject of_regime(std::optional<std::size_t> regime) const;
   template <class ValueOf>
-  ExpressionId by_regime(const char* name, const std::string& unit, const char* meaning, ValueOf value_of);
+  ExpressionId by_regime(const char* name, const std::string& unit, const char* meaning, ValueOf value_of,
+                         ConstantRole role = ConstantRole::brake_choice);
   template <class ValueOf>
-  ExpressionId per_place(const char* name, const std::string& unit, const char* meaning, ValueOf value_of);
+  ExpressionId per_place(const char* name, const std::string& unit, const char* meaning, ValueOf value_of,
+                         Derivation from = ConstantRole::brake_choice);
   ExpressionId one() { return slid(writer_); }
   ExpressionId none() { return held(writer_); }
   VariableId variable(const std::string& what, const std::string& unit, const std::string& meaning, Role role);

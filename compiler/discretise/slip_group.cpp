@@ -99,6 +99,7 @@ void SlipGroup::add(const NormalTree& component, const ComponentSplit* split) {
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const NormalTree& block = *response.blocks[i].block;
     blocks_[i].forms.push_back(block.form);
+    blocks_[i].elements.push_back(block.elements);
     blocks_[i].names.push_back(writer_.unique(name_of(block.elements, network_)));
     blocks_[i].has_spring = block.form.static_stiffness > 0;
     if (block.form.modes.empty()) continue;
@@ -106,7 +107,8 @@ void SlipGroup::add(const NormalTree& component, const ComponentSplit* split) {
     for (const Mode& mode : block.form.modes)
       mode_names.push_back(writer_.unique(joined(name_of(mode.elements, network_), "mode")));
     blocks_[i].modes = std::make_unique<ModeBank>(writer_, block.form.modes, StateInput::position, sample_period_,
-                                                  std::move(mode_names), blocks_[i].names.front());
+                                                  std::move(mode_names), blocks_[i].names.front(),
+                                                  std::vector<Subject>{OfElements{block.elements}});
   }
 }
 
@@ -135,13 +137,15 @@ ExpressionId SlipGroup::write_output(VariableId change, VariableId position) {
   now_.trial = local("trial", "the slip's force if it held");
   std::vector<Row> trial = rows(&SlipResponse::trial);
   for (Row& row : trial) row.excess = 0;
-  writer_.assign(output, now_.trial, expression("trial", trial, {change, nothing, nothing, nothing}), "t = stuck trial",
-                 origins());
+  writer_.assign(output, now_.trial, expression({RowOf::trial}, trial, {change, nothing, nothing, nothing}),
+                 "t = stuck trial", origins());
   std::vector<Real> yields;
   for (const SlipResponse& response : responses_) yields.push_back(response.yield_force);
   now_.slip = local("slip", "the slip's force");
-  const ExpressionId limit =
-      writer_.constants({prefix_, "yield"}, writer_.force(), "Y", yields, names_, ConstantRole::yield);
+  std::vector<Subject> slips;
+  for (const SlipResponse& response : responses_) slips.push_back(OfElements{response.slip_elements});
+  const ExpressionId limit = writer_.constants({prefix_, "yield"}, writer_.force(), "Y", yields, names_,
+                                               {ConstantRole::yield, std::move(slips)});
   writer_.assign(output, now_.slip, writer_.clamp(writer_.read(now_.trial), limit), "s = clamp(t, ±Y)", origins());
   now_.excess = local("excess", "what the slip does not hold");
   writer_.assign(output, now_.excess, writer_.subtract(writer_.read(now_.trial), writer_.read(now_.slip)), "r = t − s");
@@ -159,11 +163,11 @@ ExpressionId SlipGroup::write_output(VariableId change, VariableId position) {
 // f' = f_stuck − ρ r − x Δu/h
 ExpressionId SlipGroup::write_force(ExpressionId sliding) {
   const bool differs = forces_.front().differs;
-  ExpressionId force = expression("force", rows(&MotorForce::sliding), now_);
+  ExpressionId force = expression({RowOf::force}, rows(&MotorForce::sliding), now_);
   if (differs) {
     std::vector<Row> stuck = rows(&MotorForce::stuck);
     for (Row& row : stuck) row.excess = 0;
-    force = writer_.where(sliding, force, expression("stuck_force", stuck, now_));
+    force = writer_.where(sliding, force, expression({RowOf::stuck_force}, stuck, now_));
   }
   if (names_.size() == 1 && !differs) return force;
   if (writer_.reads(force) == now_.slip) return force;
@@ -190,8 +194,7 @@ void SlipGroup::write_update(VariableId) {
     Block& block = blocks_[i];
     if (block.modes) {
       drives[i] = writer_.vector({block.names.front(), "elongation"}, writer_.length(), "", Role::local, block.names);
-      writer_.assign(update, drives[i],
-                     expression(joined(block.names.front(), "elongation"), elongations(i), kept_terms),
+      writer_.assign(update, drives[i], expression({RowOf::elongation, i}, elongations(i), kept_terms),
                      "δ of the block", {});
     }
     if (!block.has_spring) continue;
@@ -201,7 +204,7 @@ void SlipGroup::write_update(VariableId) {
       if (!block.modes) next[place].held[i] += 1;
       next[place] = snapped(next[place]);
     }
-    ExpressionId force = expression(joined(block.names.front(), "spring"), next, kept_terms);
+    ExpressionId force = expression({RowOf::spring, i}, next, kept_terms);
     if (block.modes) force = writer_.add(writer_.read(block.spring_force), force);
     if (is_only_state(i)) {
       writer_.assign(update, block.spring_force, writer_.flush(force), "F ← F + k δ", origins());
@@ -225,8 +228,11 @@ ExpressionId SlipGroup::energy() {
     if (block.has_spring) {
       std::vector<Real> weights;
       for (const LinearForm& form : block.forms) weights.push_back(1 / (2 * form.static_stiffness));
-      const ExpressionId weight = writer_.constants({block.names.front(), "compliance"}, writer_.compliance(),
-                                                    "1/(2 k)", weights, block.names, ConstantRole::spring_compliance);
+      std::vector<Subject> subjects;
+      for (const ElementList& elements : block.elements) subjects.push_back(OfElements{elements});
+      const ExpressionId weight =
+          writer_.constants({block.names.front(), "compliance"}, writer_.compliance(), "1/(2 k)", weights, block.names,
+                            {ConstantRole::spring_compliance, std::move(subjects)});
       const ExpressionId squared = writer_.multiply(writer_.multiply(weight, writer_.read(block.spring_force)),
                                                     writer_.read(block.spring_force));
       const VariableId stored =
@@ -269,14 +275,38 @@ ExpressionId SlipGroup::held_force(const Block& block) {
   return writer_.plus(spring, block.modes ? writer_.read(block.modes->decayed_sum()) : nothing);
 }
 
+std::string SlipGroup::called(Quantity quantity) const {
+  switch (quantity.of) {
+    case RowOf::trial: return "trial";
+    case RowOf::force: return "force";
+    case RowOf::stuck_force: return "stuck_force";
+    case RowOf::elongation: return joined(blocks_[quantity.block].names.front(), "elongation");
+    case RowOf::spring: return joined(blocks_[quantity.block].names.front(), "spring");
+  }
+  return "";
+}
+
+// One subject a component.
+Derivation SlipGroup::row_of(const Term& term, bool is_subtracted) const {
+  const bool is_of_block = term.quantity.of == RowOf::elongation || term.quantity.of == RowOf::spring;
+  std::vector<Subject> subjects;
+  for (std::size_t place = 0; place < responses_.size(); ++place) {
+    OfRow row{responses_[place].slip_elements, term.quantity.of, {}, term.factor, {}, is_subtracted};
+    if (is_of_block) row.block = blocks_[term.quantity.block].elements[place];
+    if (term.factor == RowFor::held) row.held = blocks_[term.held_block].elements[place];
+    subjects.push_back(std::move(row));
+  }
+  return {ConstantRole::row, std::move(subjects)};
+}
+
 // A row that is the trial's but for the excess needs no products of its own, and less the whole excess it is the slip's
 // force itself. Variables of the output that a row of the update refers to are kept from one to the other.
-ExpressionId SlipGroup::expression(const std::string& what, const std::vector<Row>& rows, Terms terms) {
-  const bool in_output = terms.excess != nothing || what == "trial";
-  const bool like_trial = what != "trial" && std::equal(rows.begin(), rows.end(), responses_.begin(),
-                                                        [](const Row& row, const SlipResponse& response) {
-                                                          return same_but_for_excess(row, response.trial);
-                                                        });
+ExpressionId SlipGroup::expression(Quantity quantity, const std::vector<Row>& rows, Terms terms) {
+  const bool in_output = quantity.of != RowOf::elongation && quantity.of != RowOf::spring;
+  const bool like_trial = quantity.of != RowOf::trial && std::equal(rows.begin(), rows.end(), responses_.begin(),
+                                                                    [](const Row& row, const SlipResponse& response) {
+                                                                      return same_but_for_excess(row, response.trial);
+                                                                    });
   const std::vector<Real> excess = column(rows, [](const Row& row) { return row.excess; });
   const auto at_hand = [&](VariableId local) { return in_output ? local : kept(local); };
   if (like_trial && all_equal(excess, -1)) return writer_.read(at_hand(now_.slip));
@@ -284,36 +314,42 @@ ExpressionId SlipGroup::expression(const std::string& what, const std::vector<Ro
   if (like_trial) {
     sum = writer_.read(at_hand(now_.trial));
   } else {
-    sum = term(what + "_by_change", writer_.stiffness(), "for a change of position",
-               column(rows, [](const Row& row) { return row.change; }), writer_.read(terms.change), sum);
+    sum = term({quantity, RowFor::change}, column(rows, [](const Row& row) { return row.change; }),
+               writer_.read(terms.change), sum);
     for (std::size_t i = 0; i < blocks_.size(); ++i)
       if (const ExpressionId held = held_force(blocks_[i]); held != nothing)
-        sum = term(what + "_by_" + blocks_[i].names.front(), "1", "for a force held there",
-                   column(rows, [i](const Row& row) { return row.held[i]; }), held, sum);
+        sum = term({quantity, RowFor::held, i}, column(rows, [i](const Row& row) { return row.held[i]; }), held, sum);
   }
-  if (!all_equal(excess, 0))
-    sum = term(what + "_by_excess", "1", "for what the slip does not hold", excess, writer_.read(at_hand(now_.excess)),
-               sum);
-  return sum == nothing
-             ? writer_.constant(joined(prefix_, what + "_none"), writer_.force(), "nothing", 0, ConstantRole::zero)
-             : sum;
+  if (!all_equal(excess, 0)) sum = term({quantity, RowFor::excess}, excess, writer_.read(at_hand(now_.excess)), sum);
+  return sum == nothing ? writer_.constant(joined(prefix_, called(quantity) + "_none"), writer_.force(), "nothing", 0,
+                                           ConstantRole::zero)
+                        : sum;
 }
 
-// sum + values·factor, without a product where all values are 0, 1 or −1.
-ExpressionId SlipGroup::term(const std::string& name, const std::string& unit, const char* meaning,
-                             std::vector<Real> values, ExpressionId factor, ExpressionId sum) {
+// No product where all values are 0, 1 or −1.
+ExpressionId SlipGroup::term(const Term& term, std::vector<Real> values, ExpressionId variable, ExpressionId sum) {
   if (all_equal(values, 0)) return sum;
-  if (all_equal(values, 1)) return writer_.plus(sum, factor);
+  if (all_equal(values, 1)) return writer_.plus(sum, variable);
   const bool falls =
       std::all_of(values.begin(), values.end(), [](const Real& value) { return value < 0; }) && sum != nothing;
   if (falls)
     for (Real& value : values) value = -value;
   const ExpressionId product =
-      all_equal(values, 1)
-          ? factor
-          : writer_.multiply(writer_.constants({prefix_, name}, unit, meaning, values, names_, ConstantRole::row),
-                             factor);
+      all_equal(values, 1) ? variable : writer_.multiply(factors(term, values, falls), variable);
   return falls ? writer_.subtract(sum, product) : writer_.plus(sum, product);
+}
+
+ExpressionId SlipGroup::factors(const Term& term, const std::vector<Real>& values, bool is_subtracted) {
+  const auto written = [&](const std::string& by, const std::string& unit, const char* meaning) {
+    return writer_.constants({prefix_, called(term.quantity) + "_by_" + by}, unit, meaning, values, names_,
+                             row_of(term, is_subtracted));
+  };
+  switch (term.factor) {
+    case RowFor::change: return written("change", writer_.stiffness(), "for a change of position");
+    case RowFor::held: return written(blocks_[term.held_block].names.front(), "1", "for a force held there");
+    case RowFor::excess: return written("excess", "1", "for what the slip does not hold");
+  }
+  return nothing;
 }
 
 VariableId SlipGroup::kept(VariableId local) { return writer_.kept(local); }

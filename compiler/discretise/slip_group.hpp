@@ -42,6 +42,7 @@ class SlipGroup {
   struct Block {
     Names names;
     std::vector<LinearForm> forms;      // one a component
+    std::vector<ElementList> elements;  // the same
     std::unique_ptr<ModeBank> modes;    // of a single component
     VariableId spring_force = nothing;  // F0, of the static stiffness
     bool has_spring = false;
@@ -51,6 +52,17 @@ class SlipGroup {
   struct MotorForce {
     Row stuck, sliding;
     bool differs = false;  // by more than the excess
+  };
+
+  // What a row gives: of the component, or of one of its blocks.
+  struct Quantity {
+    RowOf of;
+    std::size_t block = 0;
+  };
+  struct Term {
+    Quantity quantity;
+    RowFor factor;
+    std::size_t held_block = 0;
   };
 
   // The variables that a row may refer to.
@@ -67,9 +79,12 @@ class SlipGroup {
   ExpressionId summed(const std::string& what, VariableId vector);
   std::vector<Row> elongations(std::size_t block) const;
   ExpressionId held_force(const Block& block);
-  ExpressionId expression(const std::string& what, const std::vector<Row>& rows, Terms terms);
-  ExpressionId term(const std::string& name, const std::string& unit, const char* meaning, std::vector<Real> values,
-                    ExpressionId factor, ExpressionId sum);
+  std::string called(Quantity quantity) const;
+  Derivation row_of(const Term& term, bool is_subtracted) const;
+  ExpressionId expression(Quantity quantity, const std::vector<Row>& rows, Terms terms);
+  // sum + values·variable
+  ExpressionId term(const Term& term, std::vector<Real> values, ExpressionId variable, ExpressionId sum);
+  ExpressionId factors(const Term& term, const std::vector<Real>& values, bool is_subtracted);
   bool is_only_state(std::size_t block) const;
   VariableId kept(VariableId local);
   VariableId local(const std::string& what, const std::string& meaning);

@@ -99,6 +99,7 @@ TunableBlocks::TunableBlocks(const Network& network, const Choices& choices, con
 void TunableBlocks::add(const Network& network, const std::vector<std::size_t>& elements, bool is_loose) {
   tables_.blocks.push_back({static_cast<int>(tables_.parts.size()), 0, 0});
   tables_.block_names.push_back(elements.empty() ? "direct" : name_of(elements, whole_));
+  tables_.block_elements.push_back(elements);
   std::vector<std::size_t> fixed_elements, direct;
   std::vector<Part> others;
   for (Part& part : independent_parts(network, elements, tool, ground)) {
@@ -116,19 +117,20 @@ void TunableBlocks::add(const Network& network, const std::vector<std::size_t>& 
   tables_.blocks.back().part_count = static_cast<int>(tables_.parts.size()) - tables_.blocks.back().first_part;
 }
 
-int TunableBlocks::number(const Network& network, const std::vector<std::size_t>& elements, const Real& base,
-                          std::vector<std::size_t> named) {
+int TunableBlocks::number(const Network& network, const std::vector<std::size_t>& elements, NumberSubject of,
+                          const Real& base, std::vector<std::size_t> named) {
   Real sum = base;
   std::vector<TunableTerm> terms;
   for (std::size_t i : elements) {
     const Element& element = network.elements[i];
     if (!is_tunable(network, i)) sum += value_of(element.law);
-    else terms.push_back({tunable_of_parameter_[*element.parameter], rounded(Real(element.share), choices_.scalar)});
+    else terms.push_back({tunable_of_parameter_[*element.parameter], rounded(Real(element.share), choices_.scalar), i});
   }
   named.insert(named.begin(), elements.begin(), elements.end());
   const Element& one = whole_.elements[named.empty() ? 0 : named.front()];
   tables_.numbers.push_back({rounded(sum, choices_.scalar), std::move(terms),
-                             named.empty() ? "none" : name_of(named, whole_), unit_of(one.law, whole_.port_motion)});
+                             named.empty() ? "none" : name_of(named, whole_), unit_of(one.law, whole_.port_motion),
+                             std::move(of)});
   return static_cast<int>(tables_.numbers.size()) - 1;
 }
 
@@ -147,24 +149,29 @@ void TunableBlocks::add_direct(const Network& network, const std::vector<std::si
   if (!springs.empty() || fixed.static_stiffness > 0) {
     std::vector<std::size_t> named = springs;
     named.insert(named.end(), fixed.static_elements.begin(), fixed.static_elements.end());
-    const int spring =
-        add_spring(number(network, springs, fixed.static_stiffness, fixed.static_elements), name_of(named, whole_));
+    const int spring = add_spring(number(network, springs, {NumberKind::block_stiffness, tables_.block_elements.back()},
+                                         fixed.static_stiffness, fixed.static_elements),
+                                  name_of(named, whole_));
     tables_.parts.push_back({PartKind::spring, spring, no_index, no_index, no_index, 0, 0, 0, 0, is_loose});
     if (tables_.blocks.size() == 1) tables_.head.static_spring = spring;
   }
   if (!dampers.empty() || fixed.feedthrough_damping > 0)
     tables_.parts.push_back({PartKind::damper, no_index,
-                             number(network, dampers, fixed.feedthrough_damping, fixed.feedthrough_elements), no_index,
-                             no_index, 0, 0, 0, 0, false});
+                             number(network, dampers, {NumberKind::block_damping, tables_.block_elements.back()},
+                                    fixed.feedthrough_damping, fixed.feedthrough_elements),
+                             no_index, no_index, 0, 0, 0, 0, false});
 }
 
 void TunableBlocks::add_fixed(const Network& network, const LinearForm& fixed) {
   for (const Mode& mode : fixed.modes) {
+    const auto place = static_cast<std::size_t>(&mode - fixed.modes.data());
+    const ElementList& elements = tables_.block_elements.back();
     const ModeCoefficients c = mode_coefficients(mode, choices_.scheme, StateInput::position, sample_period_);
     const FixedRelaxation kept = {rounded(c.position_gain / mode.stiffness, choices_.scalar),
                                   rounded(c.loss, choices_.scalar)};
-    const int stiffness = number(network, {}, mode.stiffness, mode.elements);
-    const int damping = number(network, {}, mode.damping(), mode.elements);
+    const int stiffness =
+        number(network, {}, {NumberKind::mode_stiffness, elements, place}, mode.stiffness, mode.elements);
+    const int damping = number(network, {}, {NumberKind::mode_damping, elements, place}, mode.damping(), mode.elements);
     const auto describe = [&](int index, const char* what, const Law& law) {
       TunableNumber& described = tables_.numbers[static_cast<std::size_t>(index)];
       described.name = joined(described.name, what);

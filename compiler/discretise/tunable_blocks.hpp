@@ -18,8 +18,12 @@ class TunableBlocks {
   void add(const Network& network, const std::vector<std::size_t>& elements, bool is_loose);
 
   // base + Σ of the values of elements of one kind. `named`: all whose values are in it, where `base` has some more.
-  int number(const Network& network, const std::vector<std::size_t>& elements, const Real& base = 0,
+  int number(const Network& network, const std::vector<std::size_t>& elements, NumberSubject of, const Real& base = 0,
              std::vector<std::size_t> named = {});
+  // Σ of the values of elements side by side.
+  int number(const Network& network, const std::vector<std::size_t>& elements) {
+    return number(network, elements, {NumberKind::elements, elements});
+  }
 
  private:
   int add_spring(int stiffness, std::string name, std::optional<FixedRelaxation> fixed = {});

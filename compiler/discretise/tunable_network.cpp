@@ -82,7 +82,7 @@ class TablesBuilder {
     else add_parts(*form);
     tables_.head.slip_rule.takes_part = brake_.follows != BrakeFollows::constant && has_dampers_behind_slips();
     if (network_.map && !network_.contact) write_map();
-    tables_.brake.observed = blocks_.number(network_, brake_.observed);
+    tables_.brake.observed = blocks_.number(network_, brake_.observed, {NumberKind::observed, brake_.observed});
     return true;
   }
 

@@ -107,9 +107,9 @@ class ProgramsBuilder {
     const char* const loss_means = "α, what is lost in a sample";
     if (const std::optional<FixedRelaxation>& fixed = tables_.fixed[spring]) {
       given.push_back(writer_.constant(writer_.unique(joined(name, "kept")), "1", kept_means, fixed->share,
-                                       ConstantRole::relaxation_share));
-      given.push_back(
-          writer_.constant(writer_.unique(joined(name, "loss")), "1", loss_means, fixed->loss, ConstantRole::loss));
+                                       {ConstantRole::relaxation_share, OfTablePlace{spring}}));
+      given.push_back(writer_.constant(writer_.unique(joined(name, "loss")), "1", loss_means, fixed->loss,
+                                       {ConstantRole::relaxation_loss, OfTablePlace{spring}}));
       return;
     }
     const auto tuned_one = [&](const char* what, const char* meaning, ExpressionId value, const char* purpose) {
@@ -172,7 +172,9 @@ class ProgramsBuilder {
       case BrakeFollows::half_zero_frequency: {
         const ExpressionId half =
             named("half_viscosity", writer_.damping(), "½ Z(0)",
-                  writer_.multiply(writer_.constant("half", "1", "a half", Real(0.5)), viscosity_), "");
+                  writer_.multiply(writer_.constant("half", "1", "a half", Real(0.5), ConstantRole::plain_number),
+                                   viscosity_),
+                  "");
         return writer_.where(writer_.subtract(half, feedthrough_), half, feedthrough_);
       }
       case BrakeFollows::feedthrough: return feedthrough_;
@@ -215,16 +217,19 @@ class ProgramsBuilder {
   // A number of the tables: a constant, a parameter, or a sum.
   ExpressionId number(int index) {
     auto [known, is_new] = numbers_.emplace(index, nothing);
-    if (is_new) known->second = new_number(tables_.numbers[static_cast<std::size_t>(index)]);
+    if (is_new) known->second = new_number(static_cast<std::size_t>(index));
     return known->second;
   }
-  ExpressionId new_number(const TunableNumber& n) {
+  ExpressionId new_number(std::size_t index) {
+    const TunableNumber& n = tables_.numbers[index];
     ExpressionId sum = nothing;
     for (const TunableTerm& term : n.terms) {
       const Tunable& t = tables_.tunables[term.tunable];
       ExpressionId part = writer_.read(t.value);
       if (term.share != 1)
-        part = writer_.multiply(constant_of(joined(n.name, "share"), "1", "of " + t.name, term.share), part);
+        part = writer_.multiply(constant_of(joined(n.name, "share"), "1", "of " + t.name, term.share,
+                                            {index, static_cast<std::size_t>(&term - n.terms.data())}),
+                                part);
       sum = writer_.plus(sum, part);
     }
     if (n.terms.size() == 1 && n.base == 0)
@@ -233,17 +238,18 @@ class ProgramsBuilder {
       return named(writer_.unique(joined(n.name, "sum")), n.unit, "of these together", sum, "");
     const bool is_sum = !n.terms.empty();
     const ExpressionId base =
-        constant_of(n.name, n.unit, is_sum ? "of what does not change" : "as in the network", n.base);
+        constant_of(n.name, n.unit, is_sum ? "of what does not change" : "as in the network", n.base, {index, {}});
     return is_sum
                ? named(writer_.unique(joined(n.name, "sum")), n.unit, "of these together", writer_.add(base, sum), "")
                : base;
   }
 
   // Of that name, or with a number behind it; the same again for the same value.
-  ExpressionId constant_of(const std::string& name, const std::string& unit, const std::string& meaning, double value) {
+  ExpressionId constant_of(const std::string& name, const std::string& unit, const std::string& meaning, double value,
+                           OfNumber of) {
     auto [known, is_new] = constants_.emplace(std::tuple(name, unit, value), nothing);
     if (is_new)
-      known->second = writer_.constant(writer_.unique(name), unit, meaning, value, ConstantRole::element_value);
+      known->second = writer_.constant(writer_.unique(name), unit, meaning, value, {ConstantRole::element_value, of});
     return known->second;
   }
 
@@ -261,9 +267,11 @@ class ProgramsBuilder {
     return writer_.constant("max_damping", writer_.damping(), "what the brake can give", tables_.brake.max_damping,
                             ConstantRole::brake_reach);
   }
-  ExpressionId period() { return writer_.constant("period", "s", "T", law_.sample_period, ConstantRole::sampling); }
-  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/T", head_.rate, ConstantRole::sampling); }
-  ExpressionId one() { return writer_.constant("one", "1", "one", 1); }
+  ExpressionId period() {
+    return writer_.constant("period", "s", "T", law_.sample_period, ConstantRole::sample_period);
+  }
+  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/T", head_.rate, ConstantRole::sample_rate); }
+  ExpressionId one() { return writer_.constant("one", "1", "one", 1, ConstantRole::plain_number); }
   ExpressionId zero() { return writer_.constant("zero", "1", "nothing", 0, ConstantRole::zero); }
   ExpressionId none() { return writer_.constant("no_damping", writer_.damping(), "none", 0, ConstantRole::zero); }
   ExpressionId largest() {
@@ -290,7 +298,7 @@ class ProgramsBuilder {
   ExpressionId recovery() {
     const ExpressionId all = named("surface_stiffness", writer_.stiffness(), "g, what the surface answers in a sample",
                                    writer_.add(stiffness(), writer_.multiply(feedthrough_, rate())), "g");
-    const ExpressionId minus_one = writer_.constant("minus_one", "1", "minus one", -1);
+    const ExpressionId minus_one = writer_.constant("minus_one", "1", "minus one", -1, ConstantRole::plain_number);
     return named("recovery_compliance", writer_.compliance(), "−1/g of a surface that nothing touches",
                  writer_.where(all, writer_.divide(minus_one, all), zero()), "−1/g");
   }

@@ -10,6 +10,25 @@
 namespace dashpot::compiler {
 namespace {
 
+// Whether its equation needs to know of which part of the network it is.
+bool is_of_a_part(const Coefficient& c) {
+  if (c.bank != port_bank) return true;
+  switch (c.role) {
+    case ConstantRole::spring_stiffness:
+    case ConstantRole::spring_compliance:
+    case ConstantRole::row:
+    case ConstantRole::yield:
+    case ConstantRole::mode_weight:
+    case ConstantRole::regime_feedthrough:
+    case ConstantRole::element_value:
+    case ConstantRole::least_stiffness:
+    case ConstantRole::least_yield:
+    case ConstantRole::relaxation_share:
+    case ConstantRole::relaxation_loss: return true;
+    default: return false;
+  }
+}
+
 class Check {
  public:
   Check(const UpdateLaw& law, std::string_view pass) : law_(law), pass_(pass) {}
@@ -68,6 +87,9 @@ class Check {
       require(c.role != ConstantRole::none, fmt::format("constant '{}' has no role", c.name));
       require(!c.values.empty() && (c.element_names.empty() || c.element_names.size() == c.values.size()),
               fmt::format("constant '{}' has no value for each place", c.name));
+      require(c.of.size() <= 1 || c.of.size() == c.values.size(),
+              fmt::format("constant '{}' has not one subject for each value", c.name));
+      require(!c.of.empty() || !is_of_a_part(c), fmt::format("constant '{}' is of no part of the network", c.name));
     }
     for (const Expression& e : law_.expressions) check_references(e);
     for (const VariableId id : {law_.position, law_.velocity, law_.force, law_.stored})

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "law/id.hpp"
+#include "law/subject.hpp"
 
 namespace dashpot::compiler {
 
@@ -153,6 +154,23 @@ struct Tunable {
 struct TunableTerm {
   std::size_t tunable;
   double share;
+  std::size_t element = 0;  // whose value it is, of the network's
+};
+
+enum class NumberKind : std::uint8_t {
+  elements,         // of springs, dampers or slips side by side
+  block_stiffness,  // k0 of a block
+  block_damping,    // b∞ of a block, meshes aside
+  mode_stiffness,   // k of a block's mode that no parameter touches, by ascending relaxation rate
+  mode_damping,     // b of it
+  observed,         // of the dampers that the brake takes the place of
+};
+
+// What a number is: its kind, the elements that are side by side, or those of the block, and which of its modes.
+struct NumberSubject {
+  NumberKind kind;
+  ElementList elements;
+  std::size_t mode = 0;
 };
 
 // base + Σ of tunables, each times its share
@@ -161,6 +179,7 @@ struct TunableNumber {
   std::vector<TunableTerm> terms;
   std::string name;  // of the elements whose values are in it
   std::string unit;
+  NumberSubject of;
 };
 
 // Of a relaxation that no tunable touches: φ, what a displacement within a sample leaves in its spring, and α, what is
@@ -198,11 +217,12 @@ struct TunableTables {
   std::vector<TunableNumber> numbers;
   std::vector<int> springs;
   std::vector<std::string> spring_names;              // for remarks
-  std::vector<std::optional<FixedRelaxation>> fixed;  // one a spring
+  std::vector<std::optional<FixedRelaxation>> fixed;  // one a spring; none of those that a parameter touches
   std::vector<BlockPart> parts;
   std::vector<MeshEdge> edges;
   std::vector<TunableBlock> blocks;
   std::vector<std::string> block_names;  // of their elements
+  std::vector<ElementList> block_elements;
   std::vector<int> cuts;
   std::vector<TunableYield> yields;
   std::vector<std::string> slip_names;                  // one a yield force

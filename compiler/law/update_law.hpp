@@ -21,6 +21,7 @@
 #include "decompose/choices.hpp"
 #include "law/id.hpp"
 #include "law/operation.hpp"
+#include "law/subject.hpp"
 #include "law/tunable_tables.hpp"
 
 namespace dashpot::compiler {
@@ -69,23 +70,31 @@ enum class ConstantRole : std::uint8_t {
   gain,                   // a c
   velocity_drive,         // a c h
   energy_weight,          // 1/(2 k a²)
-  spring_stiffness,       // k of a spring between slips
+  spring_stiffness,       // k0 of a block behind slips, or k of a spring between two nodes
   spring_compliance,      // 1/(2 k) of it
   row,                    // of a slip's closed form, for a change, a held force or an excess
   yield,                  // Y
   mode_weight,            // of a mode at an inner end
-  feedthrough,            // b∞ or b∞/h behind a surface or of a regime
+  feedthrough,            // b∞ behind a surface
+  feedthrough_stiffness,  // −b∞/h behind a surface
+  regime_feedthrough,     // x/h, what the brake takes over of b∞ in a regime
   recovery_compliance,    // −1/g of a surface
-  place,                  // of a surface or a step of the encoder
+  surface_place,          // of the unloaded surface
   steady_damping,         // b of what no slip changes
   map,                    // of the map of a static curve: where its cells lie, and its cubics
   motor_reach,            // what the motor can make, and shares of it
   element_value,          // k, B or Y of elements together, beside parameters that change
-  relaxation_share,       // φ of a relaxation that no parameter touches; its α is a loss
+  least_stiffness,        // g of a block behind slips, no less whatever the parameters are
+  least_yield,            // Y, no less whatever the parameters are
+  relaxation_share,       // φ of a relaxation that no parameter touches
+  relaxation_loss,        // α of it
   brake_reach,            // what the brake can give where parameters change
-  sampling,               // T or 1/T
+  sample_period,          // T
+  sample_rate,            // 1/T
+  retention,              // what an offset keeps in a sample
   brake_choice,           // how the brake is commanded: shares, samples, thresholds, what is chosen and not computed
   zero,                   // nothing
+  plain_number,           // as it is called: one, two, minus one, a half
 };
 
 // The bank of modes at the port; those behind slips count from 1.
@@ -100,6 +109,7 @@ struct Coefficient {
   std::vector<std::string> element_names = {};  // of a vector, one name a place; else empty
   ConstantRole role = ConstantRole::none;
   std::size_t bank = port_bank;  // of a mode's constant
+  std::vector<Subject> of = {};  // one a value, or one for all; none of what belongs to the whole law
 
   bool is_table() const { return values.size() > 1 && element_names.empty(); }
 };
@@ -147,14 +157,15 @@ struct TunedNode {
 
 // Slips that meet at inner nodes, with the blocks between them: one step is dashpot::slip_tree (theory, section 5).
 struct Coupling {
-  std::string name;                             // of the emitted table
-  std::vector<slip_node<double>> nodes;         // numbers already rounded to the law's scalar type
-  std::vector<VariableId> held;                 // π of each block [N]; no_variable where it is 0
-  std::vector<VariableId> elongation;           // local, δ of each block [m]; no_variable where nothing follows it
-  std::vector<std::vector<std::size_t>> slips;  // of each slip, indices into Network::elements
+  std::string name;                         // of the emitted table
+  std::vector<slip_node<double>> nodes;     // numbers already rounded to the law's scalar type
+  std::vector<VariableId> held;             // π of each block [N]; no_variable where it is 0
+  std::vector<VariableId> elongation;       // local, δ of each block [m]; no_variable where nothing follows it
+  std::vector<ElementList> slips;           // of each slip
   std::vector<VariableId> sign;             // local, of each slip: −1, 0 or 1; no_variable where nothing follows it
   VariableId surface_change = no_variable;  // local, of a tree that is pushed and not pulled: Δs [m]
   std::vector<TunedNode> tuned = {};        // one a node; none where no parameter changes them
+  std::vector<ElementList> blocks = {};     // of each block; none where parameters change the nodes
 
   bool is_pushed() const { return surface_change != no_variable; }
   int node_count() const { return static_cast<int>(nodes.size()); }
@@ -184,6 +195,8 @@ struct SlipNetwork {
   std::vector<VariableId> sign;       // local, of every slip: −1, 0 or 1
   std::vector<VariableId> last_sign;  // the states that remember them
   std::optional<TunedNetwork> tuned = {};
+  ElementList elements = {};                // all of them; none where parameters change the numbers
+  std::vector<std::size_t> end_nodes = {};  // of the network, one an inner end; the same
 
   int slip_count() const { return static_cast<int>(links.size()); }
   int patterns() const { return slip_network_patterns(links.data(), slip_count()); }

@@ -445,7 +445,7 @@ class SpellingOut {
         local_of(joined(spring.name, "offset_exact"), writer_.length(),
                  writer_.where(spring.stiffness,
                                writer_.subtract(z, writer_.divide(read(spring.kept), spring.stiffness)), zero()));
-    const ExpressionId quarter = writer_.constant("quarter", "1", "a quarter", Real(0.25));
+    const ExpressionId quarter = writer_.constant("quarter", "1", "a quarter", Real(0.25), ConstantRole::plain_number);
     const ExpressionId seen = size_of(writer_.subtract(writer_.add(z, writer_.multiply(offset, quarter)), z),
                                       joined(spring.name, "offset_seen"));
     assign(spring.offset, writer_.where(changed, writer_.where(seen, offset, zero()), read(spring.offset)),
@@ -658,8 +658,8 @@ class SpellingOut {
     for (SpringNames& spring : springs_) {
       if (spring.offset == nothing) continue;
       const ExpressionId r = read(spring.offset), z = read(spring.elongation);
-      const ExpressionId retention =
-          numbers_.constant("retention", "1", "what an offset keeps in a sample", head_.retention);
+      const ExpressionId retention = numbers_.constant("retention", "1", "what an offset keeps in a sample",
+                                                       head_.retention, ConstantRole::retention);
       const ExpressionId after = local_of(joined(spring.name, "offset_after"), writer_.length(),
                                           writer_.flush(writer_.multiply(retention, r)));
       const ExpressionId both = writer_.add(writer_.subtract(z, after), writer_.subtract(z, r));
@@ -752,10 +752,10 @@ class SpellingOut {
   ExpressionId zero() { return numbers_.zero(); }
   ExpressionId one() { return numbers_.one(); }
   ExpressionId or_zero(ExpressionId value) { return value == nothing ? zero() : value; }
-  ExpressionId minus_one() { return writer_.constant("minus_one", "1", "minus one", -1); }
-  ExpressionId two() { return writer_.constant("two", "1", "two", 2); }
-  ExpressionId half() { return writer_.constant("half", "1", "a half", Real(0.5)); }
-  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/T", head_.rate, ConstantRole::sampling); }
+  ExpressionId minus_one() { return writer_.constant("minus_one", "1", "minus one", -1, ConstantRole::plain_number); }
+  ExpressionId two() { return writer_.constant("two", "1", "two", 2, ConstantRole::plain_number); }
+  ExpressionId half() { return writer_.constant("half", "1", "a half", Real(0.5), ConstantRole::plain_number); }
+  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/T", head_.rate, ConstantRole::sample_rate); }
 
   UpdateLaw law_;
   LawWriter writer_;

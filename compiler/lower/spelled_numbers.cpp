@@ -56,9 +56,9 @@ ExpressionId SpelledNumbers::tuned(const std::string& name, const std::string& u
 }
 
 ExpressionId SpelledNumbers::constant(const std::string& name, const std::string& unit, const std::string& meaning,
-                                      double value, ConstantRole role) {
+                                      double value, Derivation from) {
   const auto [known, is_new] = constants_.emplace(name, ExpressionId());
-  if (is_new) known->second = writer_.constant(writer_.unique(name), unit, meaning, value, role);
+  if (is_new) known->second = writer_.constant(writer_.unique(name), unit, meaning, value, std::move(from));
   return known->second;
 }
 

@@ -32,9 +32,9 @@ class SpelledNumbers {
   VariableId told(const std::string& name, const std::string& unit, const std::string& meaning, ExpressionId value);
   ExpressionId tuned(const std::string& name, const std::string& unit, const std::string& meaning, ExpressionId value);
   ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, double value,
-                        ConstantRole role = ConstantRole::brake_choice);
+                        Derivation from = ConstantRole::brake_choice);
   ExpressionId zero() { return writer_.constant("zero", "1", "nothing", 0, ConstantRole::zero); }
-  ExpressionId one() { return writer_.constant("one", "1", "one", 1); }
+  ExpressionId one() { return writer_.constant("one", "1", "one", 1, ConstantRole::plain_number); }
 
   LawWriter& writer() { return writer_; }
 

@@ -167,9 +167,9 @@ ExpressionId SpelledSlips::yield_of(std::size_t slip, const std::vector<Expressi
     const ExpressionId cut = numbers[place(tables_.cuts[place(i)])];
     weakest = weakest == nothing ? cut : least_of(cut, weakest);
   }
-  const ExpressionId least =
-      numbers_.constant(joined(tables_.slip_names[slip], "least_yield"), writer_.force(),
-                        "Y, no less whatever the parameters are", yield.least, ConstantRole::yield);
+  const ExpressionId least = numbers_.constant(joined(tables_.slip_names[slip], "least_yield"), writer_.force(),
+                                               "Y, no less whatever the parameters are", yield.least,
+                                               {ConstantRole::least_yield, OfTablePlace{slip}});
   return largest_of(weakest, least);
 }
 
@@ -193,7 +193,7 @@ ExpressionId SpelledSlips::bounded_stiffness(std::size_t block) {
   const ExpressionId g = blocks_[block].stiffness;
   const ExpressionId least =
       numbers_.constant(joined(name, "least_answer"), writer_.stiffness(), "g, no less whatever the parameters are",
-                        tables_.blocks[block].least_stiffness, ConstantRole::spring_stiffness);
+                        tables_.blocks[block].least_stiffness, {ConstantRole::least_stiffness, OfTablePlace{block}});
   return g == nothing ? least : largest_of(g, least);
 }
 
@@ -324,7 +324,7 @@ void SpelledSlips::write_brake(const Brake& found, VariableId position, Expressi
     if (slides[k] == nothing) slides[k] = writer_.multiply(writer_.read(signs_[k]), writer_.read(signs_[k]));
   const ExpressionId now = numbers_.named("slips_damping_now", writer_.damping(),
                                           within(left, "regime_damping_now", damping_of(slides, "now")));
-  const ExpressionId rate = writer_.constant("rate", "Hz", "1/T", tables_.head.rate, ConstantRole::sampling);
+  const ExpressionId rate = writer_.constant("rate", "Hz", "1/T", tables_.head.rate, ConstantRole::sample_rate);
   numbers_.assign(found.now, writer_.multiply(now, rate), "b∞/T of the slips' regime");
   ExpressionId wanted = now;
   if (!memories_.empty()) {

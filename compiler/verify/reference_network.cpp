@@ -77,7 +77,10 @@ class Builder {
     slip_ends.erase(ground);
     result_.ends.assign(slip_ends.begin(), slip_ends.end());
     result_.ends.insert(result_.ends.end(), {tool, ground});
-    for (const auto& [ends, yield] : yields) result_.yield_forces.push_back(yield);
+    for (const auto& [ends, yield] : yields) {
+      result_.slips.push_back(ends);
+      result_.yield_forces.push_back(yield);
+    }
     result_.springs = result_.dampers = ReferenceMatrix(count(), ReferenceVector(count(), 0));
   }
 
@@ -149,6 +152,10 @@ class Builder {
     for (std::size_t end = 0; end < count(); ++end) drives.push_back(springs.drive(end));
     for (std::size_t end = 0; end < count(); ++end) drives.push_back(dampers.drive(end));
     const ReferencePencil pencil = reference_pencil(springs.inner(), dampers.inner(), drives);
+    sources_.clear();
+    for (std::size_t i : linear_)
+      if (std::min(row(network_.elements[i].a), row(network_.elements[i].b)) < group.size()) sources_.push_back(i);
+    std::sort(sources_.begin(), sources_.end());
     std::vector<Relaxation> relaxations;
     for (std::size_t i = 0; i < group.size(); ++i) add_mode(pencil.mu[i], pencil.shift, drives, i, relaxations);
     add_relaxations(std::move(relaxations));
@@ -207,7 +214,7 @@ class Builder {
     Reference largest = 0;
     for (std::size_t end = 0; end + 1 < drive.size(); ++end) largest = std::max(largest, Reference(abs(drive[end])));
     if (largest * largest <= negligible * widest_) return;
-    ReferenceNetworkMode mode{largest * largest, rate, {}};
+    ReferenceNetworkMode mode{largest * largest, rate, {}, sources_};
     for (const Reference& pull : drive)
       mode.weights.push_back(abs(pull) <= negligible * largest ? Reference(0) : Reference(pull / largest));
     result_.modes.push_back(std::move(mode));
@@ -221,7 +228,8 @@ class Builder {
 
   const Network& network_;
   std::vector<std::size_t> linear_;
-  double widest_ = 0;  // largest stiffness or damping, as numbers
+  std::vector<std::size_t> sources_;  // of the modes at hand
+  double widest_ = 0;                 // largest stiffness or damping, as numbers
   ReferenceNetwork result_;
 };
 

@@ -1,10 +1,6 @@
-// What the constants of a law with slips or a contact may be, recomputed in 100 digits. A constant's kind is told by
-// the end of its name; the code around it, which a second compilation gives, tells whose it is.
+// A network with slips as its law renders it, and the least of its cuts, once more in 100 digits.
 #pragma once
 
-#include <map>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "decompose/slip_decomposition.hpp"
@@ -12,17 +8,6 @@
 #include "verify/reference_tree.hpp"
 
 namespace dashpot::compiler {
-
-using Pool = std::map<std::string, std::vector<Reference>, std::less<>>;
-
-// What a constant may be by its name: "gain", "row", "yield", "table", …. None for what is chosen, and no function of
-// the network alone; several where an element's name looks like a kind.
-std::vector<std::string_view> kinds_behind_slips(std::string_view name);
-
-// `tree`: a rendered one, here and below. `slips`: what the brake was given in every regime, and the encoder's step; a
-// choice.
-Pool constants_behind_slips(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips,
-                            const LawFacts& facts);
 
 // As the laws compute it: under the gated law without the dampers beside slips; behind a contact slips outside a tree
 // with all others.
@@ -42,8 +27,5 @@ struct ReferenceCut {
 };
 ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips,
                            const LawFacts& facts, double lateness);
-
-// False where the brake was given more of some regime's dampers than there are in it.
-bool are_within_regimes(const ReferenceTree& tree, const SlipDecomposition& slips);
 
 }  // namespace dashpot::compiler

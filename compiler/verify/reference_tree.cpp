@@ -168,6 +168,17 @@ std::vector<std::size_t> elements_of(const ReferencePart& part) {
   return elements;
 }
 
+std::vector<std::size_t> elements_of(const Tree& tree) {
+  std::vector<std::size_t> elements;
+  collect(tree, elements);
+  return elements;
+}
+
+std::vector<std::size_t> sorted(std::vector<std::size_t> elements) {
+  std::sort(elements.begin(), elements.end());
+  return elements;
+}
+
 std::size_t slip_count(const ReferencePart& part) {
   std::size_t count = is_slip(part) ? 1 : 0;
   for (const ReferencePart& child : part.children) count += slip_count(child);

@@ -39,6 +39,8 @@ Network laid_out(const Tree& tree, const Network& network);
 
 std::size_t slip_count(const ReferencePart& part);
 std::vector<std::size_t> elements_of(const ReferencePart& part);
+std::vector<std::size_t> elements_of(const Tree& tree);  // in the order of laid_out()
+std::vector<std::size_t> sorted(std::vector<std::size_t> elements);
 
 // The same component without the dampers that lie beside its slips.
 ReferencePart without_dampers_beside_slips(ReferencePart part);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "network/law.hpp"
-#include "verify/header_constants.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -25,24 +25,28 @@ class Blocks {
 
   bool is_tunable(const Element& e) const { return e.parameter && place_[*e.parameter] >= 0; }
 
-  ReferenceSum value(const Element& e) const {
-    ReferenceSum sum;
-    if (!is_tunable(e)) return {value_in_100_digits(e), {}};
+  // `index`: among the network's elements.
+  ReferenceSum value(const Element& e, std::size_t index) const {
+    if (!is_tunable(e)) return {value_in_100_digits(e), {}, {index}};
+    ReferenceSum sum{0, {}, {index}};
     sum.factors.assign(std::size_t(place_[*e.parameter]) + 1, 0);
     sum.factors.back() = e.share;
     return sum;
   }
 
-  // `network`: with every parameter at its largest.
-  ReferenceBlock block(const Network& network) const {
+  // `network`: with every parameter at its largest; its i-th element is the network's elements[i].
+  ReferenceBlock block(const Network& network, const ElementList& elements) const {
     ReferenceBlock block;
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      if (network.elements[i].has_effect) block.elements.push_back(elements[i]);
+    std::sort(block.elements.begin(), block.elements.end());
     block.largest_stiffness = companion(reference_form(network), facts_);
     Network fixed = network;
     for (const std::vector<std::size_t>& part : parts_between_ends(network)) {
       if (std::none_of(part.begin(), part.end(), [&](std::size_t i) { return is_tunable(network.elements[i]); }))
         continue;
       for (std::size_t i : part) fixed.elements[i].has_effect = false;
-      add_part(network, part, block);
+      add_part(network, part, elements, block);
     }
     add_fixed(reference_form(fixed), block);
     return block;
@@ -50,7 +54,7 @@ class Blocks {
 
   // Every way to cut through slips that act as one.
   std::vector<ReferenceSum> cuts(const Tree& tree, const Network& network) const {
-    if (tree.kind == Tree::Kind::leaf) return {value(network.elements[tree.element])};
+    if (tree.kind == Tree::Kind::leaf) return {value(network.elements[tree.element], tree.element)};
     std::vector<ReferenceSum> all;
     if (tree.kind == Tree::Kind::parallel) all.emplace_back();
     for (const Tree& child : tree.children) {
@@ -70,15 +74,17 @@ class Blocks {
  private:
   static bool is_inner(NodeIndex node) { return node > tool; }
 
-  void add_part(const Network& network, const std::vector<std::size_t>& part, ReferenceBlock& block) const {
+  void add_part(const Network& network, const std::vector<std::size_t>& part, const ElementList& elements,
+                ReferenceBlock& block) const {
     const Element& first = network.elements[part.front()];
     if (!is_inner(first.a) && !is_inner(first.b)) {
       (is_spring(first) ? block.has_spring : block.has_damper) = true;
       ReferenceSum& sum = is_spring(first) ? block.stiffness : block.damping;
-      sum = added(sum, value(first));
+      sum = added(sum, value(first, elements[part.front()]));
       return;
     }
-    is_relaxation(network, part) ? add_relaxation(network, part, block) : add_mesh(network, part, block);
+    is_relaxation(network, part) ? add_relaxation(network, part, elements, block)
+                                 : add_mesh(network, part, elements, block);
   }
 
   // One inner node with all springs on one side of it and all dampers on the other.
@@ -97,21 +103,23 @@ class Blocks {
     return true;
   }
 
-  void add_relaxation(const Network& network, const std::vector<std::size_t>& part, ReferenceBlock& block) const {
+  void add_relaxation(const Network& network, const std::vector<std::size_t>& part, const ElementList& elements,
+                      ReferenceBlock& block) const {
     ReferenceRelaxation relaxation{{}, {}, false, {}};
     for (std::size_t i : part) {
       ReferenceSum& sum = is_spring(network.elements[i]) ? relaxation.stiffness : relaxation.damping;
-      sum = added(sum, value(network.elements[i]));
+      sum = added(sum, value(network.elements[i], elements[i]));
     }
     block.relaxations.push_back(std::move(relaxation));
   }
 
-  void add_mesh(const Network& network, const std::vector<std::size_t>& part, ReferenceBlock& block) const {
+  void add_mesh(const Network& network, const std::vector<std::size_t>& part, const ElementList& elements,
+                ReferenceBlock& block) const {
     std::map<std::tuple<NodeIndex, NodeIndex, bool>, ReferenceSum> edges;
     for (std::size_t i : part) {
       const Element& e = network.elements[i];
       ReferenceSum& sum = edges[{std::min(e.a, e.b), std::max(e.a, e.b), is_spring(e)}];
-      sum = added(sum, value(e));
+      sum = added(sum, value(e, elements[i]));
     }
     block.meshes.emplace_back();
     for (auto& [place, sum] : edges)
@@ -134,7 +142,8 @@ class Blocks {
 
 void add_blocks(const ReferencePart& part, const Network& network, const Blocks& blocks,
                 std::vector<ReferenceBlock>& all, std::vector<std::vector<ReferenceSum>>& yields) {
-  if (part.kind == Kind::block) all.push_back(blocks.block(laid_out(part.elements, network)));
+  if (part.kind == Kind::block)
+    all.push_back(blocks.block(laid_out(part.elements, network), elements_of(part.elements)));
   if (part.kind == Kind::slip) yields.push_back(blocks.cuts(part.elements, network));
   for (const ReferencePart& child : part.children) add_blocks(child, network, blocks, all, yields);
 }
@@ -176,7 +185,7 @@ class GraphBuilder {
     for (auto& [nodes, port] : ports_) {
       std::sort(port.begin(), port.end());
       graph.ties.push_back(
-          {nodes.first, nodes.second, blocks_.block(between(nodes.first, nodes.second, port, network_))});
+          {nodes.first, nodes.second, blocks_.block(between(nodes.first, nodes.second, port, network_), port)});
     }
     for (const auto& [nodes, yield] : yields_) {
       graph.slips.push_back(nodes);
@@ -195,7 +204,7 @@ class GraphBuilder {
       if (!is_slip(i)) continue;
       ends_.insert({element(i).a, element(i).b});
       ReferenceSum& yield = yields_[std::minmax(element(i).a, element(i).b)];
-      yield = added(yield, blocks_.value(element(i)));
+      yield = added(yield, blocks_.value(element(i), i));
     }
   }
 
@@ -262,39 +271,13 @@ Network at_largest(Network network) {
   return network;
 }
 
-Reference at_largest(const ReferenceSum& sum, const std::vector<const Parameter*>& parameters) {
-  Reference value = sum.base;
-  for (std::size_t i = 0; i < sum.factors.size(); ++i) value += sum.factors[i] * Reference(parameters[i]->max);
-  return value;
-}
-
-// Behind a slip no part is softer, and no slip yields sooner, than this share of what they are at most.
-Reference least_share(const LawFacts& facts) {
-  return facts.scalar == ScalarType::float64 ? Reference(0x1p-24) : Reference(0x1p-10);
-}
-
-void add_block(const ReferenceBlock& block, Pool& pool, const Reference& least_share) {
-  pool["blocks"].push_back(least_share * block.largest_stiffness);
-  std::vector<Reference>& numbers = pool["numbers"];
-  if (block.has_spring) numbers.push_back(block.stiffness.base);
-  if (block.has_damper) numbers.push_back(block.damping.base);
-  for (const ReferenceRelaxation& r : block.relaxations) {
-    numbers.push_back(r.stiffness.base);
-    numbers.push_back(r.damping.base);
-    if (!r.is_fixed) continue;
-    pool["parts"].push_back(r.factors.gain / r.stiffness.base);
-    pool["parts"].push_back(r.factors.loss);
-  }
-  for (const std::vector<ReferenceEdge>& mesh : block.meshes)
-    for (const ReferenceEdge& edge : mesh) numbers.push_back(edge.value.base);
-}
-
 }  // namespace
 
 ReferenceSum added(ReferenceSum first, const ReferenceSum& second, const Reference& weight) {
   first.base += weight * second.base;
   first.factors.resize(std::max(first.factors.size(), second.factors.size()), 0);
   for (std::size_t i = 0; i < second.factors.size(); ++i) first.factors[i] += weight * second.factors[i];
+  first.elements.insert(first.elements.end(), second.elements.begin(), second.elements.end());
   return first;
 }
 
@@ -308,7 +291,10 @@ ReferenceTunables reference_tunables(const Network& network, const LawFacts& fac
   // What stands in series has any order: in a tree that of the file.
   const bool is_tree = result.tree.has_slips() && series_parallel_tree(largest);
   const std::optional<Tree> linear = is_tree ? series_parallel_tree(result.tree.linear_network) : std::nullopt;
-  result.linear = blocks.block(linear ? laid_out(*linear, largest) : result.tree.linear_network);
+  ElementList all(network.elements.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  result.linear = linear ? blocks.block(laid_out(*linear, largest), elements_of(*linear))
+                         : blocks.block(result.tree.linear_network, all);
   if (network.contact && !result.tree.networks.empty()) {
     const std::vector<std::size_t> behind_slips = elements_behind_slips(result.tree);
     GraphBuilder(behind_slips, largest, blocks).add_to(result);
@@ -322,35 +308,10 @@ ReferenceTunables reference_tunables(const Network& network, const LawFacts& fac
   return result;
 }
 
-Pool constants_of_tunables(const ReferenceTunables& tunables, const Network& network, const LawFacts& facts) {
-  Pool pool;
-  pool["parts"] = {0};
-  for (const Parameter* parameter : tunables.parameters) {
-    pool["tunables"].insert(pool["tunables"].end(), {parameter->value, parameter->min, parameter->max});
-    pool[literals_in_code].push_back(parameter->value);
-  }
-  for (const Element& e : network.elements)
-    if (e.parameter && network.parameters[*e.parameter].tunable) pool["shares"].push_back(e.share);
-  const Reference least = least_share(facts);
-  const bool is_behind_slips = network.contact && tunables.tree.has_slips();
-  add_block(tunables.linear, pool, is_behind_slips ? least : Reference(0));
-  for (const std::vector<ReferenceBlock>& component : tunables.blocks)
-    for (const ReferenceBlock& block : component) add_block(block, pool, least);
-  for (const ReferenceGraph& graph : tunables.graphs)
-    for (const ReferenceTie& tie : graph.ties) add_block(tie.block, pool, least);
-  for (const std::vector<ReferenceSum>& cuts : tunables.yield_forces) {
-    std::optional<Reference> largest;
-    for (const ReferenceSum& cut : cuts) {
-      pool["numbers"].push_back(cut.base);
-      const Reference here = at_largest(cut, tunables.parameters);
-      largest = largest ? std::min(*largest, here) : here;
-    }
-    pool["yields"].push_back(least * largest.value());
-  }
-  const Reference offset_time("0.1");  // [s], in which a rest length goes home
-  const Reference period = 1 / Reference(facts.rate);
-  pool["retention"] = {exp(-period / offset_time)};
-  return pool;
+Reference at_largest(const ReferenceSum& sum, const std::vector<const Parameter*>& parameters) {
+  Reference value = sum.base;
+  for (std::size_t i = 0; i < sum.factors.size(); ++i) value += sum.factors[i] * Reference(parameters[i]->max);
+  return value;
 }
 
 }  // namespace dashpot::compiler

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "law/subject.hpp"
 #include "verify/reference_slips.hpp"
 
 namespace dashpot::compiler {
@@ -13,6 +14,7 @@ namespace dashpot::compiler {
 struct ReferenceSum {
   Reference base = 0;
   std::vector<Reference> factors = {};
+  ElementList elements = {};  // whose values are in it one by one, and not by a canonical form
 };
 
 ReferenceSum added(ReferenceSum first, const ReferenceSum& second, const Reference& weight = 1);
@@ -37,6 +39,7 @@ struct ReferenceBlock {
   Reference largest_stiffness = 0;  // g over a sample, with every parameter at its largest
   std::vector<ReferenceRelaxation> relaxations;
   std::vector<std::vector<ReferenceEdge>> meshes;
+  ElementList elements;  // all of them
 };
 
 // Slips that meet in no tree, and the blocks between their ends.
@@ -63,7 +66,7 @@ struct ReferenceTunables {
 
 ReferenceTunables reference_tunables(const Network& network, const LawFacts& facts);
 
-// What the constants of its tables may be, but for what is chosen.
-Pool constants_of_tunables(const ReferenceTunables& tunables, const Network& network, const LawFacts& facts);
+// The greatest value, which every parameter has where it is largest.
+Reference at_largest(const ReferenceSum& sum, const std::vector<const Parameter*>& parameters);
 
 }  // namespace dashpot::compiler

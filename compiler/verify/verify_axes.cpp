@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "verify/law_constants.hpp"
 #include "verify/port_constants.hpp"
 #include "verify/recompiled.hpp"
 #include "verify/reference_geometry.hpp"
@@ -50,12 +51,8 @@ class AxesVerification {
     if (constant.name == literals_in_code) return look_at_literals(constant, c_.law, diagnostics_);
     if (constant.name == "added_damping") return compare_additions(constant);
     const auto known = named_.find(constant.name);
-    if (known != named_.end() && constant.values.size() == 1) {
-      if (!is_correctly_rounded(constant.values.front(), known->second, header_.scalar))
-        diagnostics_.report<DiagnosticCode::constant_wrong>({}, constant.name, 1, constant.values.front(),
-                                                            known->second.str(20));
-      return;
-    }
+    if (known != named_.end() && constant.values.size() == 1)
+      return compare({constant.name, 0, constant.values.front()}, known->second, header_.scalar, diagnostics_);
     if (c_.certificate.gate && is_of_gate(constant.name)) return gate_.push_back(constant);
     const std::optional<std::size_t> port = port_of(constant.name, ports_);
     if (!port) return recompute_field_table(constant), compare_with_written(constant, c_.law, diagnostics_);

@@ -4,6 +4,7 @@
 
 #include "certify/proved_bound.hpp"
 #include "certify/quantisation.hpp"
+#include "verify/law_constants.hpp"
 #include "verify/port_constants.hpp"
 #include "verify/realised_network.hpp"
 #include "verify/recompiled.hpp"
@@ -88,11 +89,8 @@ class Verification {
       if (kind == "damping" || kind == "added_damping") continue;  // of the bounds
       if (is_of_motor_reach(kind)) continue;                       // of the device, with the code around them
       const auto exact = expected.find(kind);
-      if (exact == expected.end() || exact->second.size() != values.size()) {
-        diagnostics_.report<DiagnosticCode::unknown_constant>({}, kind);
-        continue;
-      }
-      for (std::size_t i = 0; i < values.size(); ++i) compare(kind, i, values[i], exact->second[i]);
+      if (exact == expected.end()) diagnostics_.report<DiagnosticCode::unknown_constant>({}, kind);
+      else compare({kind, values}, exact->second, header_.scalar, diagnostics_);
     }
     for (const char* kind : {"static_stiffness", "step_stiffness", "velocity_gain"})
       if (groups_.count(kind) == 0 && !is_correctly_rounded(0, expected.at(kind).front(), header_.scalar))
@@ -133,11 +131,6 @@ class Verification {
   }
 
  private:
-  void compare(const std::string& kind, std::size_t place, double value, const Reference& exact) {
-    if (is_correctly_rounded(value, exact, header_.scalar)) return;
-    diagnostics_.report<DiagnosticCode::constant_wrong>({}, kind, place + 1, value, exact.str(20));
-  }
-
   void expect(const char* what, double stated, double found) { expect_bound(what, stated, found, diagnostics_); }
 
   const CertificateFile& certificate_;
@@ -151,20 +144,14 @@ void recompute_map(const HeaderConstants& header, const Compilation& compiled, D
   const MotionMap& map = *compiled.network.map;
   const Network linear = linear_part(compiled.network, compiled.form);
   const ReferenceMap exact = reference_map(compiled.network, reference_form(linear), map.cubics());
-  const auto compare = [&](const char* name, const std::vector<Reference>& expected) {
+  for (const auto& [name, expected] :
+       {std::pair("cell_begins", &exact.begins), std::pair("map_a", &exact.a), std::pair("map_b", &exact.b),
+        std::pair("map_c", &exact.c), std::pair("map_e", &exact.e)}) {
     const auto found = std::find_if(header.all.begin(), header.all.end(),
                                     [&](const HeaderConstant& constant) { return constant.name == name; });
-    if (found == header.all.end() || found->values.size() != expected.size())
-      return diagnostics.report<DiagnosticCode::constant_missing>({}, name);
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      if (!is_correctly_rounded(found->values[i], expected[i], header.scalar))
-        diagnostics.report<DiagnosticCode::constant_wrong>({}, name, i + 1, found->values[i], expected[i].str(20));
-  };
-  compare("cell_begins", exact.begins);
-  compare("map_a", exact.a);
-  compare("map_b", exact.b);
-  compare("map_c", exact.c);
-  compare("map_e", exact.e);
+    if (found == header.all.end()) diagnostics.report<DiagnosticCode::constant_missing>({}, name);
+    else compare(*found, *expected, header.scalar, diagnostics);
+  }
 }
 
 }  // namespace
@@ -172,17 +159,12 @@ void recompute_map(const HeaderConstants& header, const Compilation& compiled, D
 namespace {
 
 // Of what belongs to no port: how the brake's commands are added up, and the facts of the loop.
-void look_at_sum(const HeaderConstant& constant, const Compilation& compiled,
-                 const std::map<std::string, std::vector<Reference>>& facts, ScalarType scalar,
+void look_at_sum(const HeaderConstant& constant, const Compilation& compiled, const LawFacts& facts,
                  Diagnostics& diagnostics) {
-  if (constant.name == literals_in_code) return look_at_literals(constant, compiled.law, diagnostics);
-  const double single = constant.values.front();
-  if (constant.name == "damping" && !compiled.law.brake_changes() && single == compiled.law.damping) return;
-  if (constant.name == "added_damping" && single == compiled.certificate.added_damping) return;
-  const auto fact = facts.find(constant.name);
-  if (fact == facts.end()) return compare_with_written(constant, compiled.law, diagnostics);
-  if (!is_correctly_rounded(single, fact->second.front(), scalar))
-    diagnostics.report<DiagnosticCode::constant_wrong>({}, constant.name, 1, single, fact->second.front().str(20));
+  if (constant.name == literals_in_code) look_at_literals(constant, compiled.law, diagnostics);
+  else if (constant_called(constant.name, constant.values.size(), compiled.law))
+    compare_with_written(constant, compiled.law, diagnostics);
+  else compare_with_facts(constant, compiled, facts, diagnostics);
 }
 
 // What is found again of all ports together: sums, of which nothing is computed another way.
@@ -204,13 +186,10 @@ void recompute_ports(const CertificateFile& certificate, const HeaderConstants& 
   }
   const LawFacts facts = {*certificate.choices.rate, certificate.choices.scheme, certificate.choices.scalar,
                           StateInput::position, 0};
-  std::map<std::string, std::vector<Reference>> of_loop;
-  for (const auto& [name, values] : reference_constants({}, facts))
-    if (name == "sample_period" || name == "threshold") of_loop[name] = values;
   for (const HeaderConstant& constant : header.all) {
     const std::optional<std::size_t> port = port_of(constant.name, ports);
     if (port) give(constant, ports[*port]);
-    else look_at_sum(constant, compiled, of_loop, header.scalar, diagnostics);
+    else look_at_sum(constant, compiled, facts, diagnostics);
   }
   for (const VerifiedPort& port : ports) recompute_port(port, header.scalar, diagnostics);
 }

@@ -1,10 +1,10 @@
 #include "verify/verify_slips.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
+#include <utility>
 
 #include "certify/slip_motor.hpp"
+#include "verify/law_constants.hpp"
 #include "verify/realised_network.hpp"
 #include "verify/recompiled.hpp"
 #include "verify/reference_gain.hpp"
@@ -18,60 +18,79 @@ SlipVerification::SlipVerification(const CertificateFile& certificate, const Hea
       compiled_(compiled),
       diagnostics_(diagnostics),
       facts_(facts_of(certificate)),
-      tree_(rendered_tree(reference_tree(compiled.network), compiled.network, compiled.decomposition.slips)) {
-  pool_ = constants_behind_slips(tree_, compiled.network, compiled.decomposition.slips, facts_);
-  for (const Variable& variable : compiled.law.variables)
-    if (variable.rest_value != 0) pool_[literals_in_code].push_back(variable.rest_value);  // of the brake, a choice
-  linear_ = reference_form(realised(tree_.linear_network, certificate, device));
-  for (const auto& [kind, values] : reference_constants(linear_, facts_)) {
-    std::vector<Reference>& all = pool_[kind];
-    all.insert(all.end(), values.begin(), values.end());
-  }
-  for (auto& [kind, values] : pool_) std::sort(values.begin(), values.end());
-}
+      tree_(rendered_tree(reference_tree(compiled.network), compiled.network, compiled.decomposition.slips)),
+      linear_(reference_form(realised(tree_.linear_network, certificate, device))),
+      equations_(tree_, linear_, compiled.network, compiled.decomposition.slips, facts_) {}
 
 void SlipVerification::recompute_constants() {
   for (const HeaderConstant& constant : header_.all) look_at(constant);
-  if (!are_within_regimes(tree_, compiled_.decomposition.slips))
+  if (!equations_.are_shares_within_regimes())
     diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "brake's shares", "network",
                                                                "feedthrough damping of a regime");
 }
 
 void SlipVerification::look_at(const HeaderConstant& constant) {
-  std::vector<std::string_view> kinds = kinds_behind_slips(constant.name);
-  if (pool_.count(constant.name) > 0 && std::find(kinds.begin(), kinds.end(), constant.name) == kinds.end())
-    kinds.push_back(constant.name);
-  if (kinds.empty()) return compare_with_choice(constant);
+  if (constant.name == literals_in_code) return look_at_literals(constant);
+  if (const auto table = table_called(constant.name)) return compare(constant, *table, header_.scalar, diagnostics_);
+  const auto known = constant_called(constant.name, constant.values.size(), compiled_.law);
+  if (!known) return compare_with_facts(constant, compiled_, facts_, diagnostics_);
   for (std::size_t i = 0; i < constant.values.size(); ++i)
-    if (std::none_of(kinds.begin(), kinds.end(),
-                     [&](std::string_view kind) { return is_in_pool(kind, constant.values[i]); }))
-      diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, constant.name, i + 1, constant.values[i]);
+    look_at({constant.name, i, constant.values[i]}, *known->coefficient, known->first + i);
 }
 
-// One of the pool's, the nearest number; rows may have been written as what is taken away, and a mode's weights are
-// known but for their common sign.
-bool SlipVerification::is_in_pool(std::string_view kind, double constant) const {
-  const auto pool = pool_.find(kind);
-  const double value = kind == "row" || kind == "weight" ? std::abs(constant) : constant;
-  if (pool == pool_.end()) return false;
-  // Those next to it, below and above: what rounds to a number lies around it.
-  const auto above = std::lower_bound(pool->second.begin(), pool->second.end(), Reference(value));
-  return (above != pool->second.end() && is_correctly_rounded(value, *above, header_.scalar)) ||
-         (above != pool->second.begin() && is_correctly_rounded(value, *std::prev(above), header_.scalar));
+void SlipVerification::look_at(const HeaderValue& value, const Coefficient& constant, std::size_t place) {
+  if (is_chosen(constant.role)) {
+    if (value.value != constant.values[place]) diagnostics_.report<DiagnosticCode::unknown_constant>({}, value.name);
+    return;
+  }
+  std::optional<Reference> exact = equations_.value(constant, place);
+  if (!exact) {
+    diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, value.name, value.place + 1, value.value);
+    return;
+  }
+  if (constant.role == ConstantRole::mode_weight) exact = signed_weight(value.value, constant, *exact);
+  compare(value, *exact, header_.scalar, diagnostics_);
 }
 
-void SlipVerification::compare_with_choice(const HeaderConstant& constant) {
-  const auto& chosen = compiled_.law.coefficients;
-  const auto like =
-      std::find_if(chosen.begin(), chosen.end(), [&](const Coefficient& c) { return c.name == constant.name; });
-  if (like != chosen.end() && like->values == constant.values) return;
-  const double single = constant.values.front();
-  if (constant.name == "damping" && single == compiled_.law.damping) return;
-  if (constant.name == "added_damping" && single == compiled_.certificate.added_damping) return;
-  for (const Coefficient& c : chosen)  // a vector of few places is written out as scalars
-    for (std::size_t i = 0; i < c.element_names.size(); ++i)
-      if (c.element_names[i] == constant.name && c.values[i] == single) return;
-  diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
+// A mode's weights are known but for their common sign: the first that is met tells it.
+Reference SlipVerification::signed_weight(double written, const Coefficient& constant, const Reference& exact) {
+  const auto& of = std::get<OfPartMode>(constant.of.front());
+  const int side = (written < 0) == (exact < 0) ? 1 : -1;
+  return exact * signs_.emplace(std::pair(of.elements, of.mode), side).first->second;
+}
+
+// The numbers of a table of slips that meet; nothing where the law has no table of that name. Empty where the network
+// has nothing like it.
+std::optional<SlipEquations::Values> SlipVerification::table_called(const std::string& name) const {
+  const auto found = [](const std::optional<SlipEquations::Values>& values) {
+    return values.value_or(SlipEquations::Values{});
+  };
+  for (const Coupling& coupling : compiled_.law.couplings)
+    if (name == coupling.name) return found(equations_.nodes(coupling));
+  for (const SlipNetwork& table : compiled_.law.networks) {
+    if (name == table.name + "_links") return found(equations_.links(table));
+    if (name == table.name + "_between") return found(equations_.between(table));
+    if (name == table.name + "_to_tool") return found(equations_.to_tool(table));
+    if (name == table.name + "_to_ground") return found(equations_.to_ground(table));
+  }
+  return std::nullopt;
+}
+
+// What joins tool and ground in a part that is no tree; and the states at rest, which the brake's choice says.
+void SlipVerification::look_at_literals(const HeaderConstant& literals) {
+  const auto& variables = compiled_.law.variables;
+  for (std::size_t i = 0; i < literals.values.size(); ++i) {
+    const double value = literals.values[i];
+    const auto rests_there = [&](const Variable& variable) { return variable.rest_value == value; };
+    const auto joins = [&](const SlipNetwork& table) {
+      const std::optional<Reference> through = equations_.through(table);
+      return through && is_correctly_rounded(value, *through, header_.scalar);
+    };
+    const auto& networks = compiled_.law.networks;
+    if (std::none_of(variables.begin(), variables.end(), rests_there) &&
+        std::none_of(networks.begin(), networks.end(), joins))
+      diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, literals.name, i + 1, value);
+  }
 }
 
 // The cut once more, of which the certificate may ask no less, and, but for its margin, no more.

@@ -1,9 +1,14 @@
 // Constants and bounds of a law with slips or a contact, against those recomputed in 100 digits.
 #pragma once
 
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
 #include "verify/certificate_file.hpp"
-#include "verify/header_constants.hpp"
-#include "verify/reference_slips.hpp"
+#include "verify/law_constants.hpp"
+#include "verify/slip_equations.hpp"
 
 namespace dashpot::compiler {
 
@@ -18,8 +23,10 @@ class SlipVerification {
 
  private:
   void look_at(const HeaderConstant& constant);
-  bool is_in_pool(std::string_view kind, double constant) const;
-  void compare_with_choice(const HeaderConstant& constant);
+  void look_at(const HeaderValue& value, const Coefficient& constant, std::size_t place);
+  void look_at_literals(const HeaderConstant& literals);
+  std::optional<SlipEquations::Values> table_called(const std::string& name) const;
+  Reference signed_weight(double written, const Coefficient& constant, const Reference& exact);
 
   const CertificateFile& certificate_;
   const HeaderConstants& header_;
@@ -28,7 +35,8 @@ class SlipVerification {
   LawFacts facts_;
   ReferenceTree tree_;
   ReferenceForm linear_;  // with the states that the law has
-  Pool pool_;
+  SlipEquations equations_;
+  std::map<std::pair<ElementList, std::size_t>, int> signs_;  // of the modes of parts that are no tree
 };
 
 }  // namespace dashpot::compiler

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "certify/estimator_factors.hpp"
+#include "verify/law_constants.hpp"
 #include "verify/realised_network.hpp"
 #include "verify/recompiled.hpp"
 
@@ -16,86 +17,58 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
       diagnostics_(diagnostics),
       facts_(facts_of(certificate)),
       tunables_(reference_tunables(compiled.network, facts_)),
-      pool_(constants_of_tunables(tunables_, compiled.network, facts_)) {
-  const TunableTables& tables = *compiled.law.tunable;
-  const TunableHead& head = tables.head;
-  pool_["numbers"].push_back(tables.numbers[std::size_t(tables.brake.observed)].base);
-  const UpdateLaw& law = compiled.law;
-  for (const Coefficient& constant : law.coefficients) add_pool_of(constant);
-  pool_["sample_period"] = {1 / Reference(facts_.rate)};
-  pool_["added_damping"] = pool_["steady_damping"] = {compiled.certificate.added_damping};
-  pool_["threshold"] = {compiled.law.flush_threshold};
-  pool_["surface_at"] = {compiled.network.map ? compiled.network.map->start : head.contact.at};
-  pool_["encoder_step"] = {head.contact.encoder_step};
-  pool_["none"] = {0};
-  add_literals(law);
-}
-
-// What a new law has, and the tables of its slips: yield forces to either side, by the network where no parameter
-// changes them.
-void TunableVerification::add_literals(const UpdateLaw& law) {
-  std::vector<Reference>& pool = pool_[literals_in_code];
-  for (const Variable& variable : law.variables)
-    if (variable.is_kept()) pool.push_back(variable.rest_value);
-  const auto add_yield = [&](VariableId tuned, double constant) {
-    if (tuned != no_variable) return pool.push_back(-Reference(law.variables[tuned].rest_value));
-    for (const Reference& exact : pool_["numbers"])
-      if (is_correctly_rounded(constant, exact, header_.scalar)) pool.insert(pool.end(), {exact, -exact});
-  };
-  for (const Coupling& coupling : law.couplings)
-    for (std::size_t k = 0; k < coupling.tuned.size(); ++k) add_yield(coupling.tuned[k].yield, coupling.nodes[k].yield);
-  for (const SlipNetwork& network : law.networks)
-    for (std::size_t k = 0; k < network.links.size(); ++k) {
-      const slip_link<double>& link = network.links[k];
-      add_yield(network.tuned->yields[k], link.highest);
-      if (link.lowest == 0) pool.push_back(link.highest);  // a contact, which holds whatever pushes
-    }
-}
-
-// By its role: what follows from the network is recomputed from it, what is chosen is compared with a re-emission.
-void TunableVerification::add_pool_of(const Coefficient& constant) {
-  std::vector<Reference>& pool = pool_[constant.name];
-  switch (constant.role) {
-    case ConstantRole::element_value:
-      pool = pool_["numbers"];
-      pool.insert(pool.end(), pool_["shares"].begin(), pool_["shares"].end());
-      return;
-    case ConstantRole::sampling: pool = {Reference(facts_.rate), 1 / Reference(facts_.rate)}; return;
-    case ConstantRole::relaxation_share:
-    case ConstantRole::loss: pool = pool_["parts"]; return;
-    case ConstantRole::yield: pool = pool_["yields"]; return;
-    case ConstantRole::spring_stiffness: pool = pool_["blocks"]; return;
-    default:
-      if (pool.empty()) pool.assign(constant.values.begin(), constant.values.end());
-  }
-}
+      equations_(tunables_, *compiled.law.tunable, compiled.network, facts_) {}
 
 void TunableVerification::recompute_constants() {
-  for (const HeaderConstant& constant : header_.all) {
-    const auto pool = pool_.find(constant.name);
-    if (pool == pool_.end()) diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
-    else if (constant.name == "tunables") compare_ranges(constant);
-    else compare_with_pool(constant, pool->second);
+  for (const HeaderConstant& constant : header_.all) look_at(constant);
+}
+
+void TunableVerification::look_at(const HeaderConstant& constant) {
+  if (constant.name == literals_in_code) return look_at_literals(constant);
+  if (constant.name == "tunables") return compare(constant, ranges(), header_.scalar, diagnostics_);
+  const auto known = constant_called(constant.name, constant.values.size(), compiled_.law);
+  if (!known) return compare_with_facts(constant, compiled_, facts_, diagnostics_);
+  const Coefficient& coefficient = *known->coefficient;
+  if (is_chosen(coefficient.role)) {
+    if (constant.values != coefficient.values) diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
+  } else if (const auto exact = equations_.value(coefficient)) {
+    compare(constant, {*exact}, header_.scalar, diagnostics_);
+  } else {
+    diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, constant.name, 1, constant.values.front());
   }
 }
 
 // In the order of the network's parameters: value, least and largest.
-void TunableVerification::compare_ranges(const HeaderConstant& constant) {
-  const std::vector<Reference>& expected = pool_["tunables"];
-  if (constant.values.size() != expected.size())
-    return diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
-  for (std::size_t i = 0; i < expected.size(); ++i)
-    if (!is_correctly_rounded(constant.values[i], expected[i], header_.scalar))
-      diagnostics_.report<DiagnosticCode::constant_wrong>({}, constant.name, i + 1, constant.values[i],
-                                                          expected[i].str(25));
+std::vector<Reference> TunableVerification::ranges() const {
+  std::vector<Reference> all;
+  for (const Parameter* parameter : tunables_.parameters)
+    all.insert(all.end(), {parameter->value, parameter->min, parameter->max});
+  return all;
 }
 
-void TunableVerification::compare_with_pool(const HeaderConstant& constant, const std::vector<Reference>& pool) {
-  for (std::size_t i = 0; i < constant.values.size(); ++i)
-    if (std::none_of(pool.begin(), pool.end(), [&](const Reference& exact) {
-          return is_correctly_rounded(constant.values[i], exact, header_.scalar);
-        }))
-      diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, constant.name, i + 1, constant.values[i]);
+// What states and tuned numbers of a new law begin with, to either side where they are yield forces, and the yield
+// forces that no parameter changes. A contact among slips holds whatever pushes.
+void TunableVerification::look_at_literals(const HeaderConstant& literals) {
+  const std::vector<Reference> yields = equations_.fixed_yields();
+  const auto is_yield = [&](double value) {
+    return std::any_of(yields.begin(), yields.end(),
+                       [&](const Reference& yield) { return is_correctly_rounded(value, yield, header_.scalar); });
+  };
+  const auto is_of_contact = [&](double value) {
+    const auto& networks = compiled_.law.networks;
+    return std::any_of(networks.begin(), networks.end(), [&](const SlipNetwork& network) {
+      return !network.links.empty() && network.links.back().lowest == 0 && network.links.back().highest == value;
+    });
+  };
+  for (std::size_t i = 0; i < literals.values.size(); ++i) {
+    const double value = literals.values[i];
+    const auto& variables = compiled_.law.variables;
+    const bool is_begun_with = std::any_of(variables.begin(), variables.end(), [&](const Variable& variable) {
+      return variable.is_kept() && (variable.rest_value == value || variable.rest_value == -value);
+    });
+    if (!is_begun_with && !is_yield(value) && !is_yield(-value) && !is_of_contact(value))
+      diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, literals.name, i + 1, value);
+  }
 }
 
 // What is needed may be what is left of the brake's damping, whose rounding, and that of b∞ − b, it then has, beside

@@ -4,6 +4,7 @@
 #include "verify/certificate_file.hpp"
 #include "verify/header_constants.hpp"
 #include "verify/reference_box.hpp"
+#include "verify/tunable_equations.hpp"
 
 namespace dashpot::compiler {
 
@@ -17,10 +18,9 @@ class TunableVerification {
   void recompute_bounds();
 
  private:
-  void add_pool_of(const Coefficient& constant);
-  void add_literals(const UpdateLaw& law);
-  void compare_ranges(const HeaderConstant& constant);
-  void compare_with_pool(const HeaderConstant& constant, const std::vector<Reference>& pool);
+  void look_at(const HeaderConstant& constant);
+  void look_at_literals(const HeaderConstant& literals);
+  std::vector<Reference> ranges() const;
   bool covers(double stated, const ReferenceBox& box, const Reference& share) const;
 
   const CertificateFile& certificate_;
@@ -29,7 +29,7 @@ class TunableVerification {
   Diagnostics& diagnostics_;
   LawFacts facts_;
   ReferenceTunables tunables_;
-  Pool pool_;
+  TunableEquations equations_;
 };
 
 }  // namespace dashpot::compiler

@@ -67,6 +67,12 @@ TEST(CheckLaw, refuses_what_is_no_law) {
             "a pass: 'mode_force' does not fit into 'last_position'");
   EXPECT_EQ(complaint_after([](UpdateLaw& law) { law.coefficients.begin()->role = ConstantRole::none; }).substr(0, 17),
             "a pass: constant ");
+  EXPECT_EQ(complaint_after([](UpdateLaw& law) { law.coefficients.begin()->role = ConstantRole::yield; }),
+            "a pass: constant 'static_stiffness' is of no part of the network");
+  EXPECT_EQ(complaint_after([](UpdateLaw& law) {
+              law.coefficients.begin()->of = {OfElements{{0}}, OfElements{{1}}};
+            }),
+            "a pass: constant 'static_stiffness' has not one subject for each value");
   EXPECT_EQ(complaint_after([](UpdateLaw& law) {
               law.update.front().value = law.expressions.add({Operation::add, {law.update.front().value, {}}});
             }),

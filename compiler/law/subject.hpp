@@ -1,0 +1,78 @@
+// What part of the network a constant belongs to, so that code that shares nothing with the compiler's can work it out
+// from there once more. Elements are indices into Network::elements, nodes into Network::nodes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace dashpot::compiler {
+
+using ElementList = std::vector<std::size_t>;
+
+// A linear block, or slips that act as one.
+struct OfElements {
+  ElementList elements;
+};
+
+enum class RowOf : std::uint8_t {
+  trial,        // the slip's force if it held
+  force,        // the component's force, less what the brake takes over while the slip gives way
+  stuck_force,  // the same, less what the brake takes over while the slip holds
+  elongation,   // of a block
+  spring,       // the force that the elongation adds to a block's spring
+};
+
+enum class RowFor : std::uint8_t {
+  change,  // a displacement of the tool
+  held,    // a force that a block holds
+  excess,  // what the slip does not hold
+};
+
+// One coefficient in the closed form of a component with one slip.
+struct OfRow {
+  ElementList slip;
+  RowOf quantity;
+  ElementList block;  // whose elongation or spring it is
+  RowFor factor;
+  ElementList held;            // the block that holds the force
+  bool is_subtracted = false;  // written with the other sign, because the code subtracts it
+};
+
+// The springs between two nodes of a part that is no tree.
+struct OfTie {
+  ElementList part;
+  std::size_t first, second;
+};
+
+// A mode of a part that is no tree: of those that come from the same elements, by ascending relaxation rate. Of a
+// weight, the node where it pulls.
+struct OfPartMode {
+  ElementList part;
+  ElementList elements;
+  std::size_t mode;
+  std::size_t node = 0;
+};
+
+// These slips, where bit i of the regime says that the i-th gives way; all regimes alike where none is given.
+struct OfRegime {
+  std::vector<ElementList> slips;
+  std::optional<std::size_t> regime;
+};
+
+// Of a law with tunable parameters: a number of its tables, or the share of the parameter in one of the number's terms.
+struct OfNumber {
+  std::size_t number;
+  std::optional<std::size_t> term;
+};
+
+// Of a law with tunable parameters: the place in the tables' list of springs, blocks or slips, as the role says.
+struct OfTablePlace {
+  std::size_t place;
+};
+
+using Subject = std::variant<OfElements, OfRow, OfTie, OfPartMode, OfRegime, OfNumber, OfTablePlace>;
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,79 @@
+#include "verify/law_constants.hpp"
+
+namespace dashpot::compiler {
+
+std::optional<LawConstant> constant_called(const std::string& name, std::size_t values, const UpdateLaw& law) {
+  for (const Coefficient& c : law.coefficients) {
+    if (c.name == name && c.values.size() == values) return LawConstant{&c, 0};
+    for (std::size_t i = 0; i < c.element_names.size(); ++i)
+      if (c.element_names[i] == name && values == 1) return LawConstant{&c, i};
+  }
+  return std::nullopt;
+}
+
+bool is_chosen(ConstantRole role) {
+  switch (role) {
+    case ConstantRole::none:
+    case ConstantRole::steady_damping:
+    case ConstantRole::map:
+    case ConstantRole::motor_reach:
+    case ConstantRole::brake_reach:
+    case ConstantRole::brake_choice:
+    case ConstantRole::plain_number: return true;
+    case ConstantRole::static_stiffness:
+    case ConstantRole::half_static_stiffness:
+    case ConstantRole::step_stiffness:
+    case ConstantRole::velocity_gain:
+    case ConstantRole::decay:
+    case ConstantRole::loss:
+    case ConstantRole::gain:
+    case ConstantRole::velocity_drive:
+    case ConstantRole::energy_weight:
+    case ConstantRole::spring_stiffness:
+    case ConstantRole::spring_compliance:
+    case ConstantRole::row:
+    case ConstantRole::yield:
+    case ConstantRole::mode_weight:
+    case ConstantRole::feedthrough:
+    case ConstantRole::feedthrough_stiffness:
+    case ConstantRole::regime_feedthrough:
+    case ConstantRole::recovery_compliance:
+    case ConstantRole::surface_place:
+    case ConstantRole::element_value:
+    case ConstantRole::least_stiffness:
+    case ConstantRole::least_yield:
+    case ConstantRole::relaxation_share:
+    case ConstantRole::relaxation_loss:
+    case ConstantRole::sample_period:
+    case ConstantRole::sample_rate:
+    case ConstantRole::retention:
+    case ConstantRole::zero: return false;
+  }
+  return false;
+}
+
+void compare(const HeaderValue& value, const Reference& exact, ScalarType scalar, Diagnostics& diagnostics) {
+  if (is_correctly_rounded(value.value, exact, scalar)) return;
+  diagnostics.report<DiagnosticCode::constant_wrong>({}, value.name, value.place + 1, value.value, exact.str(20));
+}
+
+void compare(const HeaderConstant& constant, const std::vector<Reference>& exact, ScalarType scalar,
+             Diagnostics& diagnostics) {
+  if (constant.values.size() != exact.size())
+    return diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.name);
+  for (std::size_t i = 0; i < exact.size(); ++i)
+    compare({constant.name, i, constant.values[i]}, exact[i], scalar, diagnostics);
+}
+
+void compare_with_facts(const HeaderConstant& constant, const Compilation& compiled, const LawFacts& facts,
+                        Diagnostics& diagnostics) {
+  const double single = constant.values.front();
+  if (constant.name == "damping" && !compiled.law.brake_changes() && single == compiled.law.damping) return;
+  if (constant.name == "added_damping" && single == compiled.certificate.added_damping) return;
+  const auto known = reference_constants({}, facts);
+  const bool is_fact = constant.name == "sample_period" || constant.name == "threshold";
+  if (!is_fact) return diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.name);
+  compare(constant, known.at(constant.name), facts.scalar, diagnostics);
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,44 @@
+// Which constant of a law a number in its header is, and whether it is the nearest to what it must be.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compile.hpp"
+#include "source/diagnostic.hpp"
+#include "verify/header_constants.hpp"
+#include "verify/reference_constants.hpp"
+
+namespace dashpot::compiler {
+
+struct LawConstant {
+  const Coefficient* coefficient;
+  std::size_t first;  // place of the header's first number among the constant's values
+};
+
+// By its name in the header: a constant's own, or, where a vector is written out as scalars, that of one of its places.
+// Empty where the law has none such, or not as many values.
+std::optional<LawConstant> constant_called(const std::string& name, std::size_t values, const UpdateLaw& law);
+
+// Whether it is chosen, or of device or map, and no function of the network alone.
+bool is_chosen(ConstantRole role);
+
+// One number of a header's constant.
+struct HeaderValue {
+  const std::string& name;
+  std::size_t place;
+  double value;
+};
+
+// These report what is not the nearest number of the scalar's type; of a list also another number of values.
+void compare(const HeaderValue& value, const Reference& exact, ScalarType scalar, Diagnostics& diagnostics);
+void compare(const HeaderConstant& constant, const std::vector<Reference>& exact, ScalarType scalar,
+             Diagnostics& diagnostics);
+
+// The same of a constant that no statement reads: sample period, threshold, and what of the brake does not change.
+void compare_with_facts(const HeaderConstant& constant, const Compilation& compiled, const LawFacts& facts,
+                        Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

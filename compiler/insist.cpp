@@ -16,6 +16,7 @@
 #include "certify/choice_text.hpp"
 #include "certify/settle.hpp"
 #include "compile.hpp"
+#include "network/law.hpp"
 #include "network/port_units.hpp"
 #include "slip_runs.hpp"
 
@@ -316,9 +317,8 @@ class Remedies {
     Network network = c_.network;
     std::set<std::size_t> parameters;
     for (Element& element : network.elements) {
-      if (Spring* const spring = std::get_if<Spring>(&element.law)) spring->stiffness *= share;
-      else if (Damper* const damper = std::get_if<Damper>(&element.law)) damper->damping *= share;
-      else continue;
+      if (is_slip(element.law)) continue;
+      element.law = with_value(element.law, value_of(element.law) * share);
       if (element.parameter) parameters.insert(*element.parameter);
     }
     for (const std::size_t i : parameters)

@@ -97,10 +97,12 @@ TrialMotion drag(double at, double amplitude, double frequency, double period, i
 double stuck_amplitude(const Network& network, double angular_frequency) {
   double stiffness = 0, yield = 0;
   for (const Element& element : network.elements) {
-    if (const auto* spring = std::get_if<Spring>(&element.law)) stiffness += spring->stiffness;
-    if (const auto* damper = std::get_if<Damper>(&element.law)) stiffness += damper->damping * angular_frequency;
-    if (const auto* slip = std::get_if<Slip>(&element.law); slip && slip->yield_force > 0)
-      yield = yield == 0 ? slip->yield_force : std::min(yield, slip->yield_force);
+    match(
+        element.law, [&](const Spring& spring) { stiffness += spring.stiffness; },
+        [&](const Damper& damper) { stiffness += damper.damping * angular_frequency; },
+        [&](const Slip& slip) {
+          if (slip.yield_force > 0) yield = yield == 0 ? slip.yield_force : std::min(yield, slip.yield_force);
+        });
   }
   return stiffness > 0 && yield > 0 ? yield / stiffness / 2 : 1e-6;
 }

@@ -12,6 +12,7 @@
 #include "certify/motor_limits.hpp"
 #include "certify/quantisation.hpp"
 #include "certify/unproved.hpp"
+#include "network/law.hpp"
 #include "network/port_units.hpp"
 
 namespace dashpot::compiler {
@@ -32,8 +33,7 @@ bool compensates(const UpdateLaw& law) {
 
 double sum_of_yields(const Network& network) {
   double sum = 0;
-  for (const Element& element : network.elements)
-    if (const auto* slip = std::get_if<Slip>(&element.law)) sum += slip->yield_force;
+  for (const Element& element : network.elements) sum += yield_force_of(element.law);
   return sum;
 }
 

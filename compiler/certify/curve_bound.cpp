@@ -14,6 +14,7 @@
 #include "discretise/law_writer.hpp"
 #include "discretise/rounding.hpp"
 #include "law/representable.hpp"
+#include "network/law.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -312,7 +313,7 @@ std::string hindrance_of_tunables(const Network& network, const BoxHold& held, c
 double yield_forces(const Network& network) {
   double sum = 0;
   for (const Element& element : network.elements)
-    if (const Slip* slip = std::get_if<Slip>(&element.law); slip && element.has_effect) sum += slip->yield_force;
+    if (element.has_effect) sum += yield_force_of(element.law);
   return sum;
 }
 

@@ -1,10 +1,10 @@
 #include "certify/held_slips.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "discretise/mode_coefficients.hpp"
 #include "linear/pencil.hpp"
+#include "network/disjoint_sets.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -73,30 +73,20 @@ class HeldNetwork {
     if (value > 0) terms.push_back({std::move(weights), value});
   }
 
-  std::size_t leader(std::size_t end) const {
-    while (leader_[end] != end) end = leader_[end];
-    return end;
-  }
-
   // The least number stands for all, so that tool and ground stay what they are. A slip that closes a ring of slips
   // needs to hold none of a change: the others can.
   void join_slips() {
-    leader_.resize(ends_);
-    std::iota(leader_.begin(), leader_.end(), std::size_t{0});
-    for (const HeldTie& slip : slips_) {
-      const std::size_t a = leader(slip.a), b = leader(slip.b);
-      is_in_forest_.push_back(a != b);
-      leader_[std::max(a, b)] = std::min(a, b);
-    }
+    joined_ = DisjointSets(ends_);
+    for (const HeldTie& slip : slips_) is_in_forest_.push_back(joined_.unite_by_least(slip.a, slip.b));
     place_.assign(ends_, -1);
     for (std::size_t end = 2; end < ends_; ++end)
-      if (leader(end) == end && is_pulled(end)) place_[end] = inner_++;
+      if (joined_.find(end) == end && is_pulled(end)) place_[end] = inner_++;
   }
 
   bool is_pulled(std::size_t end) const {
     const auto pulls = [&](const Term& term) {
       return std::any_of(term.weights.begin(), term.weights.end(),
-                         [&](const auto& weight) { return leader(weight.first) == end; });
+                         [&](const auto& weight) { return joined_.find(weight.first) == end; });
     };
     return std::any_of(springs_.begin(), springs_.end(), pulls) || std::any_of(dampers_.begin(), dampers_.end(), pulls);
   }
@@ -105,7 +95,7 @@ class HeldNetwork {
   RealVector row(const Term& term) const {
     RealVector weights = RealVector::Zero(inner_ + 1);
     for (const auto& [end, weight] : term.weights) {
-      const std::size_t first = leader(end);
+      const std::size_t first = joined_.find(end);
       if (first == 1) weights(inner_) += weight;
       else if (first > 1) weights(place_[first]) += weight;
     }
@@ -154,7 +144,7 @@ class HeldNetwork {
 
   std::vector<bool> side_of_tool() const {
     std::vector<bool> set(ends_, false);
-    for (std::size_t end = 0; end < ends_; ++end) set[end] = leader(end) == 1;
+    for (std::size_t end = 0; end < ends_; ++end) set[end] = joined_.find(end) == 1;
     return set;
   }
 
@@ -202,7 +192,7 @@ class HeldNetwork {
   std::size_t ends_ = 2;
   std::vector<Term> springs_, dampers_;
   std::vector<HeldTie> slips_;
-  std::vector<std::size_t> leader_;
+  DisjointSets joined_{0};  // ends that slips hold together; by the least, so that tool and ground stay what they are
   std::vector<bool> is_in_forest_;
   std::vector<Eigen::Index> place_;
   Eigen::Index inner_ = 0;

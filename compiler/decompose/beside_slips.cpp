@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "network/law.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -125,7 +127,7 @@ std::optional<std::vector<std::size_t>> without_dampers_beside_slips(const Netwo
   std::vector<std::size_t> left = elements;
   std::erase_if(left, [&](std::size_t index) {
     const Element& element = network.elements[index];
-    return std::holds_alternative<Damper>(element.law) && slips.count(std::minmax(element.a, element.b)) != 0;
+    return is_damper(element.law) && slips.count(std::minmax(element.a, element.b)) != 0;
   });
   return left.size() < elements.size() ? std::optional(std::move(left)) : std::nullopt;
 }

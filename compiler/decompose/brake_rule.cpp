@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "decompose/observer.hpp"
+#include "network/law.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -15,14 +16,14 @@ std::vector<std::size_t> dampers_at_tool(const Network& realisation) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < realisation.elements.size(); ++i) {
     const Element& element = realisation.elements[i];
-    if (element.has_effect && std::holds_alternative<Damper>(element.law) && is_at_tool(element)) found.push_back(i);
+    if (element.has_effect && is_damper(element.law) && is_at_tool(element)) found.push_back(i);
   }
   return found;
 }
 
 double sum_of(const std::vector<std::size_t>& dampers, const Network& network) {
   double sum = 0;
-  for (std::size_t i : dampers) sum += std::get<Damper>(network.elements[i].law).damping;
+  for (std::size_t i : dampers) sum += damping_of(network.elements[i].law);
   return sum;
 }
 
@@ -31,8 +32,7 @@ void add_direct_dampers(const Network& network, std::vector<std::size_t>& damper
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
     const Element& element = network.elements[i];
     const bool is_direct = (element.a == tool && element.b == ground) || (element.a == ground && element.b == tool);
-    const Damper* damper = std::get_if<Damper>(&element.law);
-    if (is_direct && damper != nullptr && damper->damping == 0) dampers.push_back(i);
+    if (is_direct && is_damper(element.law) && damping_of(element.law) == 0) dampers.push_back(i);
   }
 }
 

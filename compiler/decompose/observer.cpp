@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "decompose/observer_response.hpp"
+#include "network/law.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -104,8 +105,7 @@ class Observer {
  private:
   Observed visit_leaf(const Tree& tree) const {
     const Law& law = network_.elements[tree.element].law;
-    const Damper* damper = std::get_if<Damper>(&law);
-    return {tree, places_.of(law), damper ? Real(damper->damping) : Real(0)};
+    return {tree, places_.of(law), Real(damping_of(law))};
   }
 
   Observed visit_parallel(const Tree& tree) {

@@ -28,8 +28,9 @@ struct Extent {
 ObserverPlaces::ObserverPlaces(const Network& network, double reference_frequency) : reference_(reference_frequency) {
   Extent stiffness, damping;
   for (const Element& element : network.elements) {
-    if (const Spring* spring = std::get_if<Spring>(&element.law)) stiffness.take(spring->stiffness);
-    if (const Damper* damper = std::get_if<Damper>(&element.law)) damping.take(damper->damping);
+    match(
+        element.law, [&](const Spring& spring) { stiffness.take(spring.stiffness); },
+        [&](const Damper& damper) { damping.take(damper.damping); }, [](const Slip&) {});
   }
   const bool has_both = stiffness.most > 0 && damping.most > 0;
   const Real low = has_both ? Real(stiffness.least / damping.most / 100) : Real(1);
@@ -41,15 +42,18 @@ ObserverPlaces::ObserverPlaces(const Network& network, double reference_frequenc
 
 ObserverResponse ObserverPlaces::of(const Law& law) const {
   ObserverResponse response{0, 0, {0, 0}, std::vector<Real>(along_.size(), Real(0))};
-  if (const Spring* spring = std::get_if<Spring>(&law)) {
-    response.stiffness = response.at_reference.real = spring->stiffness;
-    std::fill(response.along.begin(), response.along.end(), response.stiffness);
-  }
-  if (const Damper* damper = std::get_if<Damper>(&law)) {
-    response.viscosity = damper->damping;
-    response.at_reference.imaginary = reference_ * response.viscosity;
-    for (std::size_t i = 0; i < along_.size(); ++i) response.along[i] = along_[i] * response.viscosity;
-  }
+  match(
+      law,
+      [&](const Spring& spring) {
+        response.stiffness = response.at_reference.real = spring.stiffness;
+        std::fill(response.along.begin(), response.along.end(), response.stiffness);
+      },
+      [&](const Damper& damper) {
+        response.viscosity = damper.damping;
+        response.at_reference.imaginary = reference_ * response.viscosity;
+        for (std::size_t i = 0; i < along_.size(); ++i) response.along[i] = along_[i] * response.viscosity;
+      },
+      [](const Slip&) {});
   return response;
 }
 

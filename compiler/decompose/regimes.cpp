@@ -3,33 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "decompose/observer.hpp"
+#include "network/disjoint_sets.hpp"
 #include "network/effect.hpp"
 #include "network/tree.hpp"
 
 namespace dashpot::compiler {
 namespace {
-
-// Nodes that rigid parts have made one. The lowest stands for all, so that tool and ground stay what they are.
-class JoinedNodes {
- public:
-  explicit JoinedNodes(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), NodeIndex{0}); }
-
-  NodeIndex operator()(NodeIndex node) const {
-    while (parent_[node] != node) node = parent_[node];
-    return node;
-  }
-  void join(NodeIndex a, NodeIndex b) {
-    a = (*this)(a);
-    b = (*this)(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<NodeIndex> parent_;
-};
 
 void keep_only(const std::vector<std::size_t>& elements, Network& network) {
   std::vector<bool> kept(network.elements.size(), false);
@@ -116,15 +97,15 @@ Network network_in_regime(const Network& network, const std::vector<std::size_t>
                           const std::vector<SlipElements>& slips, const std::vector<bool>& slides) {
   Network left = network;
   keep_only(elements, left);
-  JoinedNodes joined(left.nodes.size());
+  DisjointSets joined(left.nodes.size());  // by the least, so that tool and ground stay what they are
   for (std::size_t i = 0; i < slips.size(); ++i)
     for (std::size_t element : slips[i]) {
       left.elements[element].has_effect = false;
-      if (!slides[i]) joined.join(left.elements[element].a, left.elements[element].b);
+      if (!slides[i]) joined.unite_by_least(left.elements[element].a, left.elements[element].b);
     }
   for (Element& element : left.elements) {
-    element.a = joined(element.a);
-    element.b = joined(element.b);
+    element.a = joined.find(element.a);
+    element.b = joined.find(element.b);
   }
   drop_what_carries_no_force(left);
   return left;

@@ -6,14 +6,14 @@
 
 #include "discretise/element_names.hpp"
 #include "discretise/rounding.hpp"
+#include "network/law.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
 const Element& first_slip(const Network& network, const std::vector<std::size_t>& elements) {
-  return network.elements[*std::find_if(elements.begin(), elements.end(), [&](std::size_t index) {
-    return std::holds_alternative<Slip>(network.elements[index].law);
-  })];
+  return network.elements[*std::find_if(elements.begin(), elements.end(),
+                                        [&](std::size_t index) { return is_slip(network.elements[index].law); })];
 }
 
 }  // namespace

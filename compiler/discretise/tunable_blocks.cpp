@@ -11,8 +11,6 @@
 namespace dashpot::compiler {
 namespace {
 
-bool is_spring(const Element& element) { return std::holds_alternative<Spring>(element.law); }
-
 bool is_tunable(const Network& network, std::size_t element) {
   const std::optional<std::size_t>& parameter = network.elements[element].parameter;
   return parameter && network.parameters[*parameter].tunable;
@@ -79,8 +77,8 @@ Sides sides_of(const Network& network, const Part& part) {
   for (std::size_t i : part.elements) {
     const Element& e = network.elements[i];
     const bool at_port = e.a == part.port || e.b == part.port;
-    auto& side = is_spring(e) ? (at_port ? sides.springs_at_port : sides.springs_at_held)
-                              : (at_port ? sides.dampers_at_port : sides.dampers_at_held);
+    auto& side = is_spring(e.law) ? (at_port ? sides.springs_at_port : sides.springs_at_held)
+                                  : (at_port ? sides.dampers_at_port : sides.dampers_at_held);
     side.push_back(i);
   }
   return sides;
@@ -145,7 +143,7 @@ int TunableBlocks::add_spring(int stiffness, std::string name, std::optional<Fix
 void TunableBlocks::add_direct(const Network& network, const std::vector<std::size_t>& elements,
                                const LinearForm& fixed, bool is_loose) {
   std::vector<std::size_t> springs, dampers;
-  for (std::size_t i : elements) (is_spring(network.elements[i]) ? springs : dampers).push_back(i);
+  for (std::size_t i : elements) (is_spring(network.elements[i].law) ? springs : dampers).push_back(i);
   if (!springs.empty() || fixed.static_stiffness > 0) {
     std::vector<std::size_t> named = springs;
     named.insert(named.end(), fixed.static_elements.begin(), fixed.static_elements.end());
@@ -207,7 +205,7 @@ void TunableBlocks::add_mesh(const Network& network, const Part& part) {
     const Element& e = network.elements[i];
     const int a = place.at(e.a), b = place.at(e.b);
     const bool forwards = a == mesh_port || b == mesh_held || (a >= 0 && b >= 0 && a < b);
-    edges[{forwards ? std::pair(a, b) : std::pair(b, a), is_spring(e)}].push_back(i);
+    edges[{forwards ? std::pair(a, b) : std::pair(b, a), is_spring(e.law)}].push_back(i);
     tables_.mesh_elements.push_back(e.name);
   }
   const int first_edge = static_cast<int>(tables_.edges.size());

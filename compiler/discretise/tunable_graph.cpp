@@ -5,13 +5,12 @@
 #include <set>
 
 #include "linear/normal_form.hpp"
+#include "network/law.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
-bool is_slip(const Network& network, std::size_t element) {
-  return std::holds_alternative<Slip>(network.elements[element].law);
-}
+bool is_slip(const Network& network, std::size_t element) { return is_slip(network.elements[element].law); }
 
 // Linear elements that share nodes which are no ends.
 class Clusters {

@@ -26,23 +26,17 @@ const Parameter* tunable_of(const Network& network, const Element& element) {
   return parameter.tunable ? &parameter : nullptr;
 }
 
-ElementKind kind_of_law(const Law& law) {
-  return std::holds_alternative<Spring>(law)   ? ElementKind::spring
-         : std::holds_alternative<Damper>(law) ? ElementKind::damper
-                                               : ElementKind::slip;
-}
-
 // Every element that can be there is there.
 Network at_largest(Network network) {
   for (Element& element : network.elements)
     if (const Parameter* tunable = tunable_of(network, element))
-      element.law = make_law(kind_of_law(element.law), element.share * tunable->max);
+      element.law = with_value(element.law, element.share * tunable->max);
   return network;
 }
 
 int slip_elements(const Network& network) {
   return static_cast<int>(std::count_if(network.elements.begin(), network.elements.end(), [](const Element& element) {
-    return element.has_effect && std::holds_alternative<Slip>(element.law);
+    return element.has_effect && is_slip(element.law);
   }));
 }
 

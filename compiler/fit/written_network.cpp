@@ -294,9 +294,10 @@ Model model_of(const Network& network, Form form) {
   std::map<BranchKey, Values> branches;
   for (const Element& element : network.elements) {
     Values& values = branches[key_of(element.name)];
-    if (const auto* spring = std::get_if<Spring>(&element.law)) values.spring = spring->stiffness;
-    if (const auto* damper = std::get_if<Damper>(&element.law)) values.damper = damper->damping;
-    if (const auto* slip = std::get_if<Slip>(&element.law)) values.slip = slip->yield_force;
+    match(
+        element.law, [&](const Spring& spring) { values.spring = spring.stiffness; },
+        [&](const Damper& damper) { values.damper = damper.damping; },
+        [&](const Slip& slip) { values.slip = slip.yield_force; });
   }
   Model model;
   std::vector<double> weights;

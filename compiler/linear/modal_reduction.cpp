@@ -2,38 +2,16 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "linear/pencil.hpp"
+#include "network/disjoint_sets.hpp"
+#include "network/law.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
 using Matrix = RealMatrix;
 using Vector = RealVector;
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::size_t find(std::size_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  void unite(std::size_t x, std::size_t y) { parent_[find(x)] = find(y); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
-double stiffness_of(const Element& element) {
-  const Spring* spring = std::get_if<Spring>(&element.law);
-  return spring ? spring->stiffness : 0;
-}
-
-double damping_of(const Element& element) {
-  const Damper* damper = std::get_if<Damper>(&element.law);
-  return damper ? damper->damping : 0;
-}
 
 // K + sB over the internal nodes, and their coupling to the port: K_ii, B_ii, K_ip, B_ip, K_pp, B_pp.
 struct NodalEquations {
@@ -44,7 +22,7 @@ struct NodalEquations {
 
 void stamp(const Element& element, const Part& part, const std::map<NodeIndex, Eigen::Index>& row,
            NodalEquations& equations) {
-  const Real k = stiffness_of(element), b = damping_of(element);
+  const Real k = stiffness_of(element.law), b = damping_of(element.law);
   const NodeIndex ends[2] = {element.a, element.b};
   for (int end = 0; end < 2; ++end) {
     const NodeIndex here = ends[end], there = ends[1 - end];
@@ -82,7 +60,8 @@ std::size_t floating_clusters(const Part& part, const Network& network, ValueOf 
   DisjointSets sets(network.nodes.size());
   sets.unite(part.port, part.held);
   for (std::size_t element : part.elements)
-    if (value_of(network.elements[element]) > 0) sets.unite(network.elements[element].a, network.elements[element].b);
+    if (value_of(network.elements[element].law) > 0)
+      sets.unite(network.elements[element].a, network.elements[element].b);
   std::size_t clusters = 0;
   for (NodeIndex node : part.internal) clusters += sets.find(node) == node && sets.find(part.port) != node ? 1 : 0;
   return clusters;
@@ -93,7 +72,8 @@ template <class ValueOf>
 bool leads_through(const Part& part, const Network& network, ValueOf value_of) {
   DisjointSets sets(network.nodes.size());
   for (std::size_t element : part.elements)
-    if (value_of(network.elements[element]) > 0) sets.unite(network.elements[element].a, network.elements[element].b);
+    if (value_of(network.elements[element].law) > 0)
+      sets.unite(network.elements[element].a, network.elements[element].b);
   return sets.find(part.port) == sets.find(part.held);
 }
 

@@ -6,6 +6,8 @@
 
 #include "linear/normal_form.hpp"
 #include "linear/pencil.hpp"
+#include "network/disjoint_sets.hpp"
+#include "network/law.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -16,24 +18,7 @@ struct Values {
   Real stiffness = 0, damping = 0;
 };
 
-Values values_of(const Element& element) {
-  Values values;
-  if (const Spring* spring = std::get_if<Spring>(&element.law)) values.stiffness = spring->stiffness;
-  if (const Damper* damper = std::get_if<Damper>(&element.law)) values.damping = damper->damping;
-  return values;
-}
-
-class Groups {
- public:
-  std::size_t find(NodeIndex node) {
-    const auto [place, is_new] = parent_.emplace(node, node);
-    return place->second == node ? node : place->second = find(place->second);
-  }
-  void unite(NodeIndex a, NodeIndex b) { parent_[find(a)] = find(b); }
-
- private:
-  std::map<NodeIndex, NodeIndex> parent_;
-};
+Values values_of(const Element& element) { return {stiffness_of(element.law), damping_of(element.law)}; }
 
 // Elements that share inner nodes, seen at terminals and ground, the outer ones.
 class Block {
@@ -88,8 +73,8 @@ class Block {
   }
 
   template <class Carries>
-  Groups joined_by(Carries carries) const {
-    Groups groups;
+  DisjointSets joined_by(Carries carries) const {
+    DisjointSets groups(network_.nodes.size());
     for (std::size_t element : elements_) {
       const Element& e = network_.elements[element];
       if (carries(values_of(e))) groups.unite(e.a, e.b);
@@ -101,7 +86,7 @@ class Block {
   // matrix of that kind is singular.
   template <class Carries>
   Eigen::Index floating_groups(Carries carries) const {
-    Groups groups = joined_by(carries);
+    const DisjointSets groups = joined_by(carries);
     std::vector<std::size_t> outside, floating;
     for (NodeIndex node : outer_) outside.push_back(groups.find(node));
     for (const auto& [node, row] : row_) floating.push_back(groups.find(node));
@@ -194,7 +179,7 @@ class Block {
   // What is zero by structure must not survive as a rounding error.
   template <class Carries>
   void add_ties(std::vector<Tie>& ties, const RealMatrix& matrix, Carries carries) const {
-    Groups groups = joined_by(carries);
+    const DisjointSets groups = joined_by(carries);
     for (std::size_t a = 0; a < outer_.size(); ++a)
       for (std::size_t b = a + 1; b < outer_.size(); ++b) {
         const Real value = -matrix(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
@@ -217,7 +202,7 @@ class Block {
 std::vector<std::size_t> linear_elements(const Network& network, const std::vector<std::size_t>& elements) {
   std::vector<std::size_t> linear;
   for (std::size_t index : elements)
-    if (!std::holds_alternative<Slip>(network.elements[index].law)) linear.push_back(index);
+    if (!is_slip(network.elements[index].law)) linear.push_back(index);
   return linear;
 }
 
@@ -240,7 +225,7 @@ MultiportForm multiport_form(const Network& network, const std::vector<std::size
   const auto is_outer = [&](NodeIndex node) {
     return node == ground || std::find(terminals.begin(), terminals.end(), node) != terminals.end();
   };
-  Groups inner;
+  DisjointSets inner(network.nodes.size());
   for (std::size_t element : elements) {
     const Element& e = network.elements[element];
     if (!is_outer(e.a) && !is_outer(e.b)) inner.unite(e.a, e.b);

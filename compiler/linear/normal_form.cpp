@@ -4,23 +4,28 @@
 #include <limits>
 
 #include "linear/modal_reduction.hpp"
+#include "network/law.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
 NormalTree leaf(const Network& network, std::size_t index) {
-  const Law& law = network.elements[index].law;
-  if (const Slip* slip = std::get_if<Slip>(&law)) return {NormalTree::Kind::slip, {}, slip->yield_force, {index}, {}};
-  NormalTree block{NormalTree::Kind::block, {}, 0, {index}, {}};
-  if (const Spring* spring = std::get_if<Spring>(&law)) {
-    block.form.static_stiffness = spring->stiffness;
-    block.form.static_elements = {index};
-  }
-  if (const Damper* damper = std::get_if<Damper>(&law)) {
-    block.form.feedthrough_damping = damper->damping;
-    block.form.feedthrough_elements = {index};
-  }
-  return block;
+  NormalTree part{NormalTree::Kind::block, {}, 0, {index}, {}};
+  match(
+      network.elements[index].law,
+      [&](const Spring& spring) {
+        part.form.static_stiffness = spring.stiffness;
+        part.form.static_elements = {index};
+      },
+      [&](const Damper& damper) {
+        part.form.feedthrough_damping = damper.damping;
+        part.form.feedthrough_elements = {index};
+      },
+      [&](const Slip& slip) {
+        part.kind = NormalTree::Kind::slip;
+        part.yield_force = slip.yield_force;
+      });
+  return part;
 }
 
 LinearForm in_series(const std::vector<const LinearForm*>& forms) {
@@ -82,7 +87,7 @@ NormalTree normal(const Tree& tree, const Network& network) {
 
 bool has_slips(const Network& network, const std::vector<std::size_t>& elements) {
   return std::any_of(elements.begin(), elements.end(),
-                     [&](std::size_t element) { return std::holds_alternative<Slip>(network.elements[element].law); });
+                     [&](std::size_t element) { return is_slip(network.elements[element].law); });
 }
 
 std::optional<Tree> tree_of(Network network, const std::vector<std::size_t>& elements) {
@@ -155,8 +160,7 @@ std::map<std::pair<NodeIndex, NodeIndex>, Real> slips_between(const Network& net
   std::map<std::pair<NodeIndex, NodeIndex>, Real> slips;
   for (std::size_t index : elements) {
     const Element& element = network.elements[index];
-    if (const Slip* slip = std::get_if<Slip>(&element.law))
-      slips[std::minmax(element.a, element.b)] += slip->yield_force;
+    if (is_slip(element.law)) slips[std::minmax(element.a, element.b)] += yield_force_of(element.law);
   }
   return slips;
 }
@@ -165,7 +169,7 @@ std::vector<std::vector<std::size_t>> slips_together(const Network& network, con
   std::map<std::pair<NodeIndex, NodeIndex>, std::vector<std::size_t>> between;
   for (std::size_t index : elements) {
     const Element& element = network.elements[index];
-    if (std::holds_alternative<Slip>(element.law)) between[std::minmax(element.a, element.b)].push_back(index);
+    if (is_slip(element.law)) between[std::minmax(element.a, element.b)].push_back(index);
   }
   std::vector<std::vector<std::size_t>> slips;
   for (auto& [ends, together] : between) slips.push_back(std::move(together));

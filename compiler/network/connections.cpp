@@ -1,10 +1,10 @@
 #include "network/connections.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <string_view>
 
+#include "network/disjoint_sets.hpp"
 #include "network/effect.hpp"
 #include "network/law.hpp"
 #include "network/name_rules.hpp"
@@ -29,22 +29,11 @@ std::string list_names(const std::vector<const Element*>& elements) {
   return list_names(names);
 }
 
-// Connected parts: one representative a node (union by path halving).
-class Parts {
- public:
-  explicit Parts(const Network& network) : parent_(network.nodes.size()) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-    for (const Element& element : network.elements) parent_[find(element.a)] = find(element.b);
-  }
-
-  std::size_t find(NodeIndex node) {
-    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
-    return node;
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
+DisjointSets connected_parts(const Network& network) {
+  DisjointSets parts(network.nodes.size());
+  for (const Element& element : network.elements) parts.unite(element.a, element.b);
+  return parts;
+}
 
 std::vector<std::size_t> elements_at_nodes(const Network& network) {
   std::vector<std::size_t> count(network.nodes.size(), 0);
@@ -64,14 +53,14 @@ void note_what_end_is_called(const Network& network, NodeIndex end, const std::v
 }
 
 // The nodes that elements join to `end`.
-std::vector<std::string> nodes_joined_to(NodeIndex end, const Network& network, Parts& parts) {
+std::vector<std::string> nodes_joined_to(NodeIndex end, const Network& network, const DisjointSets& parts) {
   std::vector<std::string> names;
   for (NodeIndex node = 0; node < network.nodes.size(); ++node)
     if (node != end && parts.find(node) == parts.find(end)) names.push_back(network.nodes[node]);
   return names;
 }
 
-void check_ends(const Network& network, Span structure, const std::vector<Span>& node_places, Parts& parts,
+void check_ends(const Network& network, Span structure, const std::vector<Span>& node_places, const DisjointSets& parts,
                 Diagnostics& diagnostics) {
   const std::vector<std::size_t> count = elements_at_nodes(network);
   for (const NodeIndex end : {tool, ground}) {
@@ -86,7 +75,7 @@ void check_ends(const Network& network, Span structure, const std::vector<Span>&
     diagnostics.note<DiagnosticCode::join_the_parts>({}, list_names(at_tool), list_names(at_ground));
 }
 
-void check_floating_parts(const Network& network, Parts& parts, Diagnostics& diagnostics) {
+void check_floating_parts(const Network& network, const DisjointSets& parts, Diagnostics& diagnostics) {
   std::vector<std::vector<const Element*>> members(network.nodes.size());
   for (const Element& element : network.elements)
     if (element.a != element.b) members[parts.find(element.a)].push_back(&element);
@@ -97,9 +86,9 @@ void check_floating_parts(const Network& network, Parts& parts, Diagnostics& dia
 }
 
 void check_slip_paths(const Network& network, Diagnostics& diagnostics) {
-  std::vector<bool> is_slip;
-  for (const Element& element : network.elements) is_slip.push_back(std::holds_alternative<Slip>(element.law));
-  const std::vector<bool> on_path = on_path_between_ends(network, is_slip);
+  std::vector<bool> are_slips;
+  for (const Element& element : network.elements) are_slips.push_back(is_slip(element.law));
+  const std::vector<bool> on_path = on_path_between_ends(network, are_slips);
   std::vector<const Element*> slips;
   for (std::size_t i = 0; i < on_path.size(); ++i)
     if (on_path[i]) slips.push_back(&network.elements[i]);
@@ -139,7 +128,7 @@ void warn_about(const Network& network, const Element& element, bool may_carry, 
 
 void check_connections(const Network& network, Span structure, const std::vector<Span>& node_places,
                        Diagnostics& diagnostics) {
-  Parts parts(network);
+  const DisjointSets parts = connected_parts(network);
   check_ends(network, structure, node_places, parts, diagnostics);
   check_floating_parts(network, parts, diagnostics);
   check_slip_paths(network, diagnostics);

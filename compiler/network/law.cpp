@@ -1,31 +1,6 @@
 #include "network/law.hpp"
 
 namespace dashpot::compiler {
-namespace {
-
-struct ValueOf {
-  double operator()(const Spring& spring) const { return spring.stiffness; }
-  double operator()(const Damper& damper) const { return damper.damping; }
-  double operator()(const Slip& slip) const { return slip.yield_force; }
-};
-
-struct DimensionOf {
-  bool rotates;
-
-  Dimension operator()(const Spring&) const {
-    return rotates ? dimensions::rotational_stiffness : dimensions::stiffness;
-  }
-  Dimension operator()(const Damper&) const { return rotates ? dimensions::rotational_damping : dimensions::damping; }
-  Dimension operator()(const Slip&) const { return rotates ? dimensions::torque : dimensions::force; }
-};
-
-struct KindOf {
-  std::string_view operator()(const Spring&) const { return "spring"; }
-  std::string_view operator()(const Damper&) const { return "damper"; }
-  std::string_view operator()(const Slip&) const { return "slip"; }
-};
-
-}  // namespace
 
 Law make_law(ElementKind kind, double value) {
   switch (kind) {
@@ -36,12 +11,49 @@ Law make_law(ElementKind kind, double value) {
   return Spring{value};
 }
 
-double value_of(const Law& law) { return std::visit(ValueOf{}, law); }
-
-Dimension dimension_of(const Law& law, motion port_motion) {
-  return std::visit(DimensionOf{port_motion == motion::rotation}, law);
+Law with_value(const Law& law, double value) {
+  return match(
+      law, [&](const Spring&) { return Law(Spring{value}); }, [&](const Damper&) { return Law(Damper{value}); },
+      [&](const Slip&) { return Law(Slip{value}); });
 }
 
-std::string_view kind_of(const Law& law) { return std::visit(KindOf{}, law); }
+double value_of(const Law& law) {
+  return match(
+      law, [](const Spring& spring) { return spring.stiffness; }, [](const Damper& damper) { return damper.damping; },
+      [](const Slip& slip) { return slip.yield_force; });
+}
+
+Dimension dimension_of(const Law& law, motion port_motion) {
+  const bool rotates = port_motion == motion::rotation;
+  return match(
+      law, [=](const Spring&) { return rotates ? dimensions::rotational_stiffness : dimensions::stiffness; },
+      [=](const Damper&) { return rotates ? dimensions::rotational_damping : dimensions::damping; },
+      [=](const Slip&) { return rotates ? dimensions::torque : dimensions::force; });
+}
+
+std::string_view kind_of(const Law& law) {
+  return match(
+      law, [](const Spring&) { return std::string_view("spring"); },
+      [](const Damper&) { return std::string_view("damper"); }, [](const Slip&) { return std::string_view("slip"); });
+}
+
+bool is_spring(const Law& law) {
+  return match(
+      law, [](const Spring&) { return true; }, [](const Damper&) { return false; }, [](const Slip&) { return false; });
+}
+
+bool is_damper(const Law& law) {
+  return match(
+      law, [](const Spring&) { return false; }, [](const Damper&) { return true; }, [](const Slip&) { return false; });
+}
+
+bool is_slip(const Law& law) {
+  return match(
+      law, [](const Spring&) { return false; }, [](const Damper&) { return false; }, [](const Slip&) { return true; });
+}
+
+double stiffness_of(const Law& law) { return is_spring(law) ? value_of(law) : 0; }
+double damping_of(const Law& law) { return is_damper(law) ? value_of(law) : 0; }
+double yield_force_of(const Law& law) { return is_slip(law) ? value_of(law) : 0; }
 
 }  // namespace dashpot::compiler

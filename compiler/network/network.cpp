@@ -61,7 +61,7 @@ bool has_tunables(const Network& network) {
 
 bool has_slips(const Network& network) {
   return std::any_of(network.elements.begin(), network.elements.end(),
-                     [](const Element& element) { return std::holds_alternative<Slip>(element.law); });
+                     [](const Element& element) { return is_slip(element.law); });
 }
 
 std::string to_text(const Network& network) {

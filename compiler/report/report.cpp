@@ -10,6 +10,7 @@
 #include "emit/template_text.hpp"
 #include "fit/column_choice.hpp"
 #include "network/decimal.hpp"
+#include "network/law.hpp"
 #include "network/rate_limits.hpp"
 #include "network/unit.hpp"
 #include "report/agreement.hpp"
@@ -53,8 +54,8 @@ std::vector<Fields> facts(const Compilation& c) {
     const double viscosity = to_double(zero_frequency_damping(c.form.linear));
     list.push_back(fact("viscosity at low frequency", number_text(viscosity), units.damping));
   } else {
-    const auto is_slip = [](const Element& e) { return e.has_effect && std::holds_alternative<Slip>(e.law); };
-    const auto slips = std::count_if(c.network.elements.begin(), c.network.elements.end(), is_slip);
+    const auto gives_way = [](const Element& e) { return e.has_effect && is_slip(e.law); };
+    const auto slips = std::count_if(c.network.elements.begin(), c.network.elements.end(), gives_way);
     list.push_back(fact("slips", std::to_string(slips), ""));
   }
   if (c.network.static_curve)

@@ -1,5 +1,7 @@
 #include "verify/network_json.hpp"
 
+#include "network/law.hpp"
+
 namespace dashpot::compiler {
 
 using Json = nlohmann::ordered_json;
@@ -15,9 +17,7 @@ Json json_of_elements(const Network& network) {
   for (const Element& e : network.elements) {
     if (!e.has_effect) continue;
     Json element = {{"name", e.name}, {"nodes", {network.nodes[e.a], network.nodes[e.b]}}};
-    if (const Spring* spring = std::get_if<Spring>(&e.law)) element["spring"] = spring->stiffness;
-    if (const Damper* damper = std::get_if<Damper>(&e.law)) element["damper"] = damper->damping;
-    if (const Slip* slip = std::get_if<Slip>(&e.law)) element["slip"] = slip->yield_force;
+    element[std::string(kind_of(e.law))] = value_of(e.law);
     elements.push_back(std::move(element));
   }
   return elements;

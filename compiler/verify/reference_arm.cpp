@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "certify/slip_motor.hpp"
+#include "network/law.hpp"
 #include "verify/reference_grid.hpp"
 #include "verify/reference_slips.hpp"
 
@@ -176,8 +177,7 @@ PortForce force_of(const AxesCompilation& c, std::size_t i) {
   const ReferenceTree tree = rendered_tree(reference_tree(network), network, slips);
   force.grounded = tree.linear.static_stiffness;
   for (const ReferenceMode& mode : tree.linear.modes) force.relaxing += mode.stiffness;
-  for (const Element& element : network.elements)
-    if (const auto* slip = std::get_if<Slip>(&element.law)) force.yields += Reference(slip->yield_force);
+  for (const Element& element : network.elements) force.yields += Reference(yield_force_of(element.law));
   force.held = tree.has_slips() || network.contact
                    ? held_behind_slips(reference_cut(tree, network, slips, facts, prompt), facts)
                    : held_of_linear(tree.linear, facts);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "network/disjoint_sets.hpp"
 #include "verify/reference_pencil.hpp"
 
 namespace dashpot::compiler {
@@ -13,25 +14,17 @@ using Square = ReferenceMatrix;
 
 // Inner nodes that are joined without passing tool or ground.
 std::vector<std::vector<NodeIndex>> components(const Network& network) {
-  std::vector<NodeIndex> leader(network.nodes.size());
-  for (NodeIndex i = 0; i < leader.size(); ++i) leader[i] = i;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const Element& e : network.elements) {
-      if (!e.has_effect || e.a <= tool || e.b <= tool) continue;
-      const NodeIndex least = std::min(leader[e.a], leader[e.b]);
-      changed |= leader[e.a] != least || leader[e.b] != least;
-      leader[e.a] = leader[e.b] = least;
-    }
-  }
+  DisjointSets joined(network.nodes.size());
+  for (const Element& e : network.elements)
+    if (e.has_effect && e.a > tool && e.b > tool) joined.unite_by_least(e.a, e.b);
   std::map<NodeIndex, std::vector<NodeIndex>> groups;
   std::vector<bool> touched(network.nodes.size(), false);
   for (const Element& e : network.elements)
     if (e.has_effect) touched[e.a] = touched[e.b] = true;
-  for (NodeIndex i = tool + 1; i < leader.size(); ++i)
-    if (touched[i]) groups[leader[i]].push_back(i);
+  for (NodeIndex i = tool + 1; i < touched.size(); ++i)
+    if (touched[i]) groups[joined.find(i)].push_back(i);
   std::vector<std::vector<NodeIndex>> list;
-  for (auto& [leader_of, nodes] : groups) list.push_back(std::move(nodes));
+  for (auto& [least, nodes] : groups) list.push_back(std::move(nodes));
   return list;
 }
 
@@ -140,8 +133,9 @@ ReferenceForm reference_form(const Network& network) {
   for (const Element& e : network.elements) {
     if (!e.has_effect) continue;
     const std::size_t part = part_of[e.a > tool ? e.a : e.b];
-    if (const Spring* spring = std::get_if<Spring>(&e.law)) stamp(springs[part], row, e, spring->stiffness);
-    if (const Damper* damper = std::get_if<Damper>(&e.law)) stamp(dampers[part], row, e, damper->damping);
+    match(
+        e.law, [&](const Spring& spring) { stamp(springs[part], row, e, spring.stiffness); },
+        [&](const Damper& damper) { stamp(dampers[part], row, e, damper.damping); }, [](const Slip&) {});
   }
   for (std::size_t part = 0; part < parts.size(); ++part) {
     form.static_stiffness += springs[part].at_tool;

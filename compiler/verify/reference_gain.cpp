@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "decompose/regimes.hpp"
+#include "network/disjoint_sets.hpp"
+#include "network/law.hpp"
 #include "verify/reference_network.hpp"
 
 namespace dashpot::compiler {
@@ -131,23 +133,21 @@ std::optional<Reference> held_companion(const ReferencePart& part, const LawFact
 Reference held_companion(const ReferenceNetwork& form, const Network& network, const std::vector<std::size_t>& elements,
                          const LawFacts& facts) {
   const std::size_t count = form.ends.size();
-  std::vector<std::size_t> leader(count);
-  for (std::size_t i = 0; i < count; ++i) leader[i] = i;
+  DisjointSets joined(count);
   const auto place = [&](NodeIndex node) {
     return std::size_t(std::find(form.ends.begin(), form.ends.end(), node) - form.ends.begin());
   };
-  for (std::size_t pass = 0; pass < count; ++pass)
-    for (std::size_t i : elements) {
-      const Element& e = network.elements[i];
-      if (!std::holds_alternative<Slip>(e.law)) continue;
-      const std::size_t most = std::max(leader[place(e.a)], leader[place(e.b)]);  // tool and ground come last
-      leader[place(e.a)] = leader[place(e.b)] = most;
-    }
+  for (std::size_t i : elements) {
+    const Element& e = network.elements[i];
+    if (!is_slip(e.law)) continue;
+    const std::size_t a = joined.find(place(e.a)), b = joined.find(place(e.b));
+    joined.unite(std::min(a, b), std::max(a, b));  // tool and ground come last
+  }
   ReferenceMatrix ties(count, ReferenceVector(count, 0));
   for (std::size_t a = 0; a < count; ++a)
     for (std::size_t b = 0; b < count; ++b) {
-      if (a == b || leader[a] == leader[b]) continue;
-      Reference& tie = ties[leader[a]][leader[b]];
+      if (joined.find(a) == joined.find(b)) continue;
+      Reference& tie = ties[joined.find(a)][joined.find(b)];
       tie += form.springs[a][b] + form.dampers[a][b] * Reference(facts.rate);
       for (const ReferenceNetworkMode& mode : form.modes)
         tie -= mode_factors({mode.stiffness, mode.relaxation_rate, 1}, facts).gain * mode.weights[a] * mode.weights[b];

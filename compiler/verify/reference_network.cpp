@@ -4,24 +4,15 @@
 #include <map>
 #include <set>
 
+#include "network/disjoint_sets.hpp"
+#include "network/law.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
 const Reference nothing("1e-60");     // what cancellation leaves, of the whole
 const Reference negligible("1e-30");  // what is there is no less
 const Reference same_rate("1e-25");
-
-double stiffness_of(const Element& e) {
-  const Spring* spring = std::get_if<Spring>(&e.law);
-  return spring ? spring->stiffness : 0;
-}
-
-double damping_of(const Element& e) {
-  const Damper* damper = std::get_if<Damper>(&e.law);
-  return damper ? damper->damping : 0;
-}
-
-const Slip* slip_of(const Element& e) { return std::get_if<Slip>(&e.law); }
 
 // Nodes with the numbers they have in a matrix: those that are eliminated come first, then the ends.
 class TerminalLaplacian {
@@ -65,12 +56,12 @@ class Builder {
     std::map<std::pair<NodeIndex, NodeIndex>, Reference> yields;
     for (std::size_t i : elements) {
       const Element& e = network.elements[i];
-      if (const Slip* slip = slip_of(e)) {
+      if (is_slip(e.law)) {
         slip_ends.insert({e.a, e.b});
-        yields[std::minmax(e.a, e.b)] += slip->yield_force;
+        yields[std::minmax(e.a, e.b)] += yield_force_of(e.law);
       } else {
         linear_.push_back(i);
-        widest_ = std::max({widest_, stiffness_of(e), damping_of(e)});
+        widest_ = std::max({widest_, stiffness_of(e.law), damping_of(e.law)});
       }
     }
     slip_ends.erase(tool);
@@ -101,30 +92,25 @@ class Builder {
 
   // Inner nodes that are joined without passing an end.
   std::vector<std::vector<NodeIndex>> groups() const {
-    std::map<NodeIndex, NodeIndex> leader;
-    for (std::size_t i : linear_)
-      for (NodeIndex node : {network_.elements[i].a, network_.elements[i].b})
-        if (!is_end(node)) leader.emplace(node, node);
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (std::size_t i : linear_) {
-        const Element& e = network_.elements[i];
-        if (is_end(e.a) || is_end(e.b) || leader[e.a] == leader[e.b]) continue;
-        leader[e.a] = leader[e.b] = std::min(leader[e.a], leader[e.b]);
-        changed = true;
-      }
+    DisjointSets joined(network_.nodes.size());
+    std::set<NodeIndex> inner;
+    for (std::size_t i : linear_) {
+      const Element& e = network_.elements[i];
+      for (NodeIndex node : {e.a, e.b})
+        if (!is_end(node)) inner.insert(node);
+      if (!is_end(e.a) && !is_end(e.b)) joined.unite_by_least(e.a, e.b);
     }
-    std::map<NodeIndex, std::vector<NodeIndex>> by_leader;
-    for (const auto& [node, first] : leader) by_leader[first].push_back(node);
+    std::map<NodeIndex, std::vector<NodeIndex>> by_least;
+    for (const NodeIndex node : inner) by_least[joined.find(node)].push_back(node);
     std::vector<std::vector<NodeIndex>> all;
-    for (auto& [first, nodes] : by_leader) all.push_back(std::move(nodes));
+    for (auto& [first, nodes] : by_least) all.push_back(std::move(nodes));
     return all;
   }
 
   void add_direct() {
     for (std::size_t i : linear_) {
       const Element& e = network_.elements[i];
-      if (is_end(e.a) && is_end(e.b)) add_tie(end_of(e.a), end_of(e.b), stiffness_of(e), damping_of(e));
+      if (is_end(e.a) && is_end(e.b)) add_tie(end_of(e.a), end_of(e.b), stiffness_of(e.law), damping_of(e.law));
     }
   }
 
@@ -145,8 +131,8 @@ class Builder {
       const Element& e = network_.elements[i];
       const std::size_t a = row(e.a), b = row(e.b);
       if (std::min(a, b) >= group.size() || std::max(a, b) >= group.size() + count()) continue;
-      springs.stamp(a, b, stiffness_of(e));
-      dampers.stamp(a, b, damping_of(e));
+      springs.stamp(a, b, stiffness_of(e.law));
+      dampers.stamp(a, b, damping_of(e.law));
     }
     std::vector<ReferenceVector> drives;
     for (std::size_t end = 0; end < count(); ++end) drives.push_back(springs.drive(end));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "decompose/regimes.hpp"
+#include "network/law.hpp"
 #include "verify/header_constants.hpp"
 #include "verify/reference_network.hpp"
 #include "verify/slip_rows.hpp"
@@ -47,7 +48,7 @@ ReferenceCut least_cut(const Network& network, const std::vector<std::size_t>& e
     };
     const bool is_crossed = std::any_of(elements.begin(), elements.end(), [&](std::size_t i) {
       const Element& e = network.elements[i];
-      return std::holds_alternative<Slip>(e.law) && at_tool(place(e.a)) != at_tool(place(e.b));
+      return is_slip(e.law) && at_tool(place(e.a)) != at_tool(place(e.b));
     });
     if (is_crossed) continue;
     ReferenceCut cut{0, 0};
@@ -80,10 +81,9 @@ ReferenceTree rendered_tree(ReferenceTree tree, const Network& network, const Sl
     const std::vector<std::size_t> all = tree.networks[i];
     std::erase_if(tree.networks[i], [&](std::size_t index) {
       const Element& damper = network.elements[index];
-      return std::holds_alternative<Damper>(damper.law) && std::any_of(all.begin(), all.end(), [&](std::size_t other) {
+      return is_damper(damper.law) && std::any_of(all.begin(), all.end(), [&](std::size_t other) {
                const Element& slip = network.elements[other];
-               return std::holds_alternative<Slip>(slip.law) &&
-                      std::minmax(slip.a, slip.b) == std::minmax(damper.a, damper.b);
+               return is_slip(slip.law) && std::minmax(slip.a, slip.b) == std::minmax(damper.a, damper.b);
              });
     });
   }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "network/disjoint_sets.hpp"
+#include "network/law.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -79,9 +82,8 @@ struct Gathered {
 
 ReferencePart part_of(const Tree& tree, const Network& network) {
   if (tree.kind == Tree::Kind::leaf) {
-    const Slip* slip = std::get_if<Slip>(&network.elements[tree.element].law);
-    return slip ? ReferencePart{Kind::slip, tree, {}, slip->yield_force, {}}
-                : ReferencePart{Kind::block, tree, {}, 0, {}};
+    const Law& law = network.elements[tree.element].law;
+    return {is_slip(law) ? Kind::slip : Kind::block, tree, {}, yield_force_of(law), {}};
   }
   Gathered gathered{tree.kind == Tree::Kind::series ? Kind::series : Kind::parallel, {}, {}, {}, {}};
   for (const Tree& child : tree.children) gathered.take(part_of(child, network));
@@ -93,7 +95,7 @@ void fill_forms(ReferencePart& part, const Network& network) {
   for (ReferencePart& child : part.children) fill_forms(child, network);
 }
 
-bool is_slip(const ReferencePart& part) { return part.kind == Kind::slip; }
+bool is_of_slips(const ReferencePart& part) { return part.kind == Kind::slip; }
 
 void collect(const Tree& tree, std::vector<std::size_t>& elements) {
   if (tree.kind == Tree::Kind::leaf) elements.push_back(tree.element);
@@ -115,21 +117,14 @@ Network only(const std::vector<std::size_t>& elements, Network network) {
 
 std::vector<std::vector<std::size_t>> parts_between_ends(const Network& network) {
   std::vector<std::vector<std::size_t>> parts;
-  std::vector<NodeIndex> leader(network.nodes.size());
-  for (NodeIndex i = 0; i < leader.size(); ++i) leader[i] = i;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const Element& e : network.elements) {
-      if (!e.has_effect || std::min(e.a, e.b) <= tool || leader[e.a] == leader[e.b]) continue;
-      leader[e.a] = leader[e.b] = std::min(leader[e.a], leader[e.b]);
-      changed = true;
-    }
-  }
+  DisjointSets joined(network.nodes.size());
+  for (const Element& e : network.elements)
+    if (e.has_effect && std::min(e.a, e.b) > tool) joined.unite(e.a, e.b);
   std::vector<NodeIndex> leader_of_part;
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
     const Element& e = network.elements[i];
     if (!e.has_effect) continue;
-    const NodeIndex first = std::max(e.a, e.b) <= tool ? network.nodes.size() + i : leader[std::max(e.a, e.b)];
+    const NodeIndex first = std::max(e.a, e.b) <= tool ? network.nodes.size() + i : joined.find(std::max(e.a, e.b));
     const auto known = std::find(leader_of_part.begin(), leader_of_part.end(), first);
     if (known == leader_of_part.end()) {
       leader_of_part.push_back(first);
@@ -147,8 +142,8 @@ ReferenceTree reference_tree(const Network& network) {
   for (Element& element : result.linear_network.elements) element.has_effect = false;
   for (const std::vector<std::size_t>& part : parts_between_ends(network)) {
     const Network alone = only(part, network);
-    const bool slips = std::any_of(
-        part.begin(), part.end(), [&](std::size_t i) { return std::holds_alternative<Slip>(network.elements[i].law); });
+    const bool slips =
+        std::any_of(part.begin(), part.end(), [&](std::size_t i) { return is_slip(network.elements[i].law); });
     const std::optional<Tree> tree = series_parallel_tree(alone);
     if (!slips)
       for (std::size_t i : part) result.linear_network.elements[i].has_effect = true;
@@ -180,7 +175,7 @@ std::vector<std::size_t> sorted(std::vector<std::size_t> elements) {
 }
 
 std::size_t slip_count(const ReferencePart& part) {
-  std::size_t count = is_slip(part) ? 1 : 0;
+  std::size_t count = is_of_slips(part) ? 1 : 0;
   for (const ReferencePart& child : part.children) count += slip_count(child);
   return count;
 }
@@ -194,10 +189,11 @@ ReferencePart without_dampers_beside_slips(ReferencePart part) {
     return without_dampers_beside_slips(one).yield_force < without_dampers_beside_slips(other).yield_force;
   };
   const ReferencePart* sole = nullptr;
-  if (part.kind == Kind::series && std::none_of(part.children.begin(), part.children.end(), is_slip))
+  if (part.kind == Kind::series && std::none_of(part.children.begin(), part.children.end(), is_of_slips))
     for (const ReferencePart& child : part.children)
       if (alone(child) && (sole == nullptr || yields_sooner(child, *sole))) sole = &child;
-  const bool beside = part.kind == Kind::parallel && std::any_of(part.children.begin(), part.children.end(), is_slip);
+  const bool beside =
+      part.kind == Kind::parallel && std::any_of(part.children.begin(), part.children.end(), is_of_slips);
   for (ReferencePart& child : part.children) {
     if (child.kind == Kind::block)
       child.form.feedthrough_damping = beside ? Reference(0) : child.form.feedthrough_damping;

@@ -5,14 +5,13 @@
 #include <numeric>
 #include <set>
 
+#include "network/disjoint_sets.hpp"
 #include "network/law.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
 using Kind = ReferencePart::Kind;
-
-bool is_spring(const Element& e) { return std::holds_alternative<Spring>(e.law); }
 
 Reference value_in_100_digits(const Element& e) { return value_of(e.law); }
 
@@ -78,8 +77,8 @@ class Blocks {
                 ReferenceBlock& block) const {
     const Element& first = network.elements[part.front()];
     if (!is_inner(first.a) && !is_inner(first.b)) {
-      (is_spring(first) ? block.has_spring : block.has_damper) = true;
-      ReferenceSum& sum = is_spring(first) ? block.stiffness : block.damping;
+      (is_spring(first.law) ? block.has_spring : block.has_damper) = true;
+      ReferenceSum& sum = is_spring(first.law) ? block.stiffness : block.damping;
       sum = added(sum, value(first, elements[part.front()]));
       return;
     }
@@ -96,7 +95,7 @@ class Blocks {
       const NodeIndex inner = std::max(e.a, e.b), other = std::min(e.a, e.b);
       if (is_inner(other) || (node != 0 && inner != node)) return false;
       node = inner;
-      const bool this_way = is_spring(e) == (other == tool);
+      const bool this_way = is_spring(e.law) == (other == tool);
       if (springs_at_tool && *springs_at_tool != this_way) return false;
       springs_at_tool = this_way;
     }
@@ -107,7 +106,7 @@ class Blocks {
                       ReferenceBlock& block) const {
     ReferenceRelaxation relaxation{{}, {}, false, {}};
     for (std::size_t i : part) {
-      ReferenceSum& sum = is_spring(network.elements[i]) ? relaxation.stiffness : relaxation.damping;
+      ReferenceSum& sum = is_spring(network.elements[i].law) ? relaxation.stiffness : relaxation.damping;
       sum = added(sum, value(network.elements[i], elements[i]));
     }
     block.relaxations.push_back(std::move(relaxation));
@@ -118,7 +117,7 @@ class Blocks {
     std::map<std::tuple<NodeIndex, NodeIndex, bool>, ReferenceSum> edges;
     for (std::size_t i : part) {
       const Element& e = network.elements[i];
-      ReferenceSum& sum = edges[{std::min(e.a, e.b), std::max(e.a, e.b), is_spring(e)}];
+      ReferenceSum& sum = edges[{std::min(e.a, e.b), std::max(e.a, e.b), is_spring(e.law)}];
       sum = added(sum, value(e, elements[i]));
     }
     block.meshes.emplace_back();
@@ -197,7 +196,7 @@ class GraphBuilder {
  private:
   bool is_end(NodeIndex node) const { return ends_.count(node) > 0; }
   const Element& element(std::size_t i) const { return network_.elements[i]; }
-  bool is_slip(std::size_t i) const { return std::holds_alternative<Slip>(element(i).law); }
+  bool is_slip(std::size_t i) const { return compiler::is_slip(element(i).law); }
 
   void find_ends() {
     for (std::size_t i : elements_) {
@@ -210,22 +209,14 @@ class GraphBuilder {
 
   // By the least of the inner nodes that they share.
   std::map<NodeIndex, std::vector<std::size_t>> groups() const {
-    std::map<NodeIndex, NodeIndex> leader;
+    DisjointSets joined(network_.nodes.size());
     for (std::size_t i : elements_)
-      for (NodeIndex node : {element(i).a, element(i).b}) leader[node] = node;
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (std::size_t i : elements_) {
-        const Element& e = element(i);
-        if (is_slip(i) || is_end(e.a) || is_end(e.b) || leader[e.a] == leader[e.b]) continue;
-        leader[e.a] = leader[e.b] = std::min(leader[e.a], leader[e.b]);
-        changed = true;
-      }
-    }
+      if (!is_slip(i) && !is_end(element(i).a) && !is_end(element(i).b))
+        joined.unite_by_least(element(i).a, element(i).b);
     std::map<NodeIndex, std::vector<std::size_t>> all;
     for (std::size_t i : elements_)
       if (!is_slip(i) && !(is_end(element(i).a) && is_end(element(i).b)))
-        all[leader[is_end(element(i).a) ? element(i).b : element(i).a]].push_back(i);
+        all[joined.find(is_end(element(i).a) ? element(i).b : element(i).a)].push_back(i);
     return all;
   }
 
@@ -263,10 +254,7 @@ class GraphBuilder {
 Network at_largest(Network network) {
   for (Element& e : network.elements) {
     if (!e.parameter || !network.parameters[*e.parameter].tunable) continue;
-    const double most = e.share * network.parameters[*e.parameter].max;
-    if (Spring* spring = std::get_if<Spring>(&e.law)) spring->stiffness = most;
-    if (Damper* damper = std::get_if<Damper>(&e.law)) damper->damping = most;
-    if (Slip* slip = std::get_if<Slip>(&e.law)) slip->yield_force = most;
+    e.law = with_value(e.law, e.share * network.parameters[*e.parameter].max);
   }
   return network;
 }

@@ -4,6 +4,7 @@
 
 #include "certify/proved_bound.hpp"
 #include "certify/quantisation.hpp"
+#include "network/law.hpp"
 #include "verify/law_constants.hpp"
 #include "verify/port_constants.hpp"
 #include "verify/realised_network.hpp"
@@ -197,9 +198,9 @@ void recompute_ports(const CertificateFile& certificate, const HeaderConstants& 
 }  // namespace
 
 bool is_plainly_linear(const Network& network) {
-  const auto is_slip = [](const Element& e) { return e.has_effect && std::holds_alternative<Slip>(e.law); };
+  const auto gives_way = [](const Element& e) { return e.has_effect && is_slip(e.law); };
   return network.ports.empty() && !network.contact && !network.static_curve && !has_tunables(network) &&
-         std::none_of(network.elements.begin(), network.elements.end(), is_slip);
+         std::none_of(network.elements.begin(), network.elements.end(), gives_way);
 }
 
 void compare_constants(const std::map<std::string, std::vector<double>>& stated, const HeaderConstants& header,

@@ -1,4 +1,5 @@
-"""Holds every own source to .clang-format and to its 120 columns.
+"""Holds every own source to .clang-format and to its 120 columns, the names of C++ tests to one style, and code that asks
+of what kind an element is to one way.
 
     python3 format_test.py
 
@@ -16,6 +17,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COLUMNS = 120
+TEST_NAME = re.compile(r"^(?:TYPED_)?TEST(?:_[FP])?\((.+?),\s*(\w+)\)", re.MULTILINE)
 RAW_STRING = re.compile(r'R"(\w*)\(.*?\)\1"', re.DOTALL)
 
 
@@ -65,6 +67,20 @@ class Style(unittest.TestCase):
             longer += [f"{path.relative_to(ROOT)}:{number}: {columns(line)} columns"
                        for number, line in enumerate(text.split("\n"), 1) if columns(line) > COLUMNS and number not in raw]
         self.assertEqual(longer, [], f"lines longer than {COLUMNS} columns")
+
+    # Fails if code asks of an element's kind in a way that a new kind passes in silence.
+    def test_kinds_of_elements(self):
+        asked = re.compile(r"\b(?:get_if|holds_alternative|get)<\s*(?:Spring|Damper|Slip)\s*>")
+        found = [path.relative_to(ROOT).as_posix() for path in sources() if "tests" not in path.parts and asked.search(path.read_text())]
+        self.assertEqual(found, [], "match() of compiler/network/element.hpp asks for every kind")
+
+    # Fails if a test of C++ is called in another style: words joined by their capitals, as GoogleTest asks for.
+    def test_names_of_tests(self):
+        templates = sorted((ROOT / "templates").rglob("*.in"))
+        names = [(path, match.group(2)) for path in [*sources(), *templates] for match in TEST_NAME.finditer(path.read_text())]
+        self.assertGreater(len(names), 1000)
+        self.assertEqual([f"{path.relative_to(ROOT)}: {name}" for path, name in names if not re.fullmatch(r"[A-Z][A-Za-z0-9]*", name)],
+                         [])
 
 
 if __name__ == "__main__":

@@ -52,10 +52,10 @@ Real sum(const std::vector<const ComponentSplit*>& splits, ValueOf value_of) {
 
 void SlipBrake::add(const ComponentSplit* split) { splits_.push_back(split); }
 
-std::string SlipBrake::shape(const ComponentSplit* split) {
+SlipBrake::Shape SlipBrake::shape(const ComponentSplit* split) {
   const Shares& shares = shares_of(split);
-  if (!differ(shares, same_damping)) return "-";
-  return std::string(compiler::is_ramped(split) ? "r" : "b") + (shares.front().damping == least_of(shares) ? "+" : "-");
+  if (!differ(shares, same_damping)) return {};
+  return {true, compiler::is_ramped(split), shares.front().damping == least_of(shares)};
 }
 
 bool SlipBrake::takes_part() const { return largest_damping() > 0; }

@@ -29,7 +29,12 @@ class SlipBrake {
   // `split`: nothing for the brake where it is none. Outlives this.
   void add(const ComponentSplit* split);
   // Places go together where the same of their shares change.
-  static std::string shape(const ComponentSplit* split);
+  struct Shape {
+    bool changes = false, is_ramped = false, begins_with_least = false;
+
+    bool operator==(const Shape&) const = default;
+  };
+  static Shape shape(const ComponentSplit* split);
 
   bool takes_part() const;
   bool changes() const;  // b or x with the regime, so that it must know which slips give way

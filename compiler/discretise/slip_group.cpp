@@ -18,16 +18,6 @@ std::vector<Real> column(const std::vector<Row>& rows, ValueOf value_of) {
   return values;
 }
 
-char kind_of(const Real& coefficient) {
-  return coefficient == 0 ? '0' : coefficient == 1 ? '1' : coefficient == -1 ? 'm' : 'x';
-}
-
-std::string kind_of(const Row& row) {
-  std::string kinds(1, kind_of(row.change));
-  for (const Real& coefficient : row.held) kinds += kind_of(coefficient);
-  return kinds + kind_of(row.excess);
-}
-
 bool has_modes(const NormalTree& component) {
   const std::vector<const NormalTree*> blocks = blocks_of(component);
   return std::any_of(blocks.begin(), blocks.end(), [](const NormalTree* block) { return !block->form.modes.empty(); });
@@ -67,24 +57,35 @@ SlipGroup::MotorForce SlipGroup::motor_force(const SlipResponse& response, const
   return {snapped(force.stuck), snapped(force.sliding), force.differs};
 }
 
-std::string SlipGroup::shape(const SlipResponse& response, const MotorForce& force) const {
-  std::string text = kind_of(response.trial) + kind_of(force.stuck) + kind_of(force.sliding);
-  text += same_but_for_excess(response.trial, force.stuck) ? "=" : "!";
-  text += same_but_for_excess(response.trial, force.sliding) ? "=" : "!";
-  text += force.differs ? "d" : "-";
+SlipGroup::RowShape SlipGroup::shape_of(const Row& row) {
+  const auto factor_of = [](const Real& value) {
+    return value == 0 ? Factor::zero : value == 1 ? Factor::one : value == -1 ? Factor::minus_one : Factor::other;
+  };
+  RowShape shape{{factor_of(row.change)}};
+  for (const Real& value : row.held) shape.factors.push_back(factor_of(value));
+  shape.factors.push_back(factor_of(row.excess));
+  return shape;
+}
+
+SlipGroup::Shape SlipGroup::shape_of(const SlipResponse& response, const MotorForce& force) {
+  Shape shape{shape_of(response.trial),
+              shape_of(force.stuck),
+              shape_of(force.sliding),
+              same_but_for_excess(response.trial, force.stuck),
+              same_but_for_excess(response.trial, force.sliding),
+              force.differs,
+              {}};
   for (std::size_t i = 0; i < response.blocks.size(); ++i) {
     const LinearForm& form = response.blocks[i].block->form;
-    text += form.static_stiffness > 0 ? 's' : '-';
-    text += form.modes.empty() ? '-' : 'm';
-    text += kind_of(response.elongation[i]);
+    shape.blocks.push_back({form.static_stiffness > 0, !form.modes.empty(), shape_of(response.elongation[i])});
   }
-  return text;
+  return shape;
 }
 
 bool SlipGroup::accepts(const NormalTree& component, const ComponentSplit* split) const {
   if (responses_.empty() || has_modes_ || has_modes(component) || SlipBrake::shape(split) != brake_shape_) return false;
   const SlipResponse response = response_of(component);
-  return shape(response, motor_force(response, split)) == shape(responses_.front(), forces_.front());
+  return shape_of(response, motor_force(response, split)) == shape_of(responses_.front(), forces_.front());
 }
 
 void SlipGroup::add(const NormalTree& component, const ComponentSplit* split) {

@@ -71,7 +71,28 @@ class SlipGroup {
   };
 
   SlipResponse response_of(const NormalTree& component) const;
-  std::string shape(const SlipResponse& response, const MotorForce& force) const;
+  // What of a component decides how its code looks: components of one shape share a loop.
+  enum class Factor { zero, one, minus_one, other };
+  struct RowShape {
+    std::vector<Factor> factors;
+
+    bool operator==(const RowShape&) const = default;
+  };
+  struct BlockShape {
+    bool has_spring, has_modes;
+    RowShape elongation;
+
+    bool operator==(const BlockShape&) const = default;
+  };
+  struct Shape {
+    RowShape trial, stuck, sliding;
+    bool stuck_is_like_trial, sliding_is_like_trial, differs;
+    std::vector<BlockShape> blocks;
+
+    bool operator==(const Shape&) const = default;
+  };
+  static RowShape shape_of(const Row& row);
+  static Shape shape_of(const SlipResponse& response, const MotorForce& force);
   MotorForce motor_force(const SlipResponse& response, const ComponentSplit* split) const;
   std::vector<Row> rows(Row SlipResponse::*row) const;
   std::vector<Row> rows(Row MotorForce::*row) const;
@@ -99,7 +120,7 @@ class SlipGroup {
   std::vector<SlipResponse> responses_;
   std::vector<MotorForce> forces_;
   SlipBrake brake_;
-  std::string brake_shape_;
+  SlipBrake::Shape brake_shape_;
   std::vector<Block> blocks_;
   ExpressionId damping_ = nothing, shortfall_ = nothing, compensation_ = nothing;
   Terms now_{nothing, nothing, nothing, nothing};

@@ -162,7 +162,7 @@ class BatchPrinter {
     batch.set = {
         "// Of one point, right after step(), the commands then being those of output() with the same samples: so",
         "// the force from before is held no longer, and the change injects no energy. Bit i of the result:",
-        "// parameter i was beyond its range and is at its bound now, or it was no number and is as it was.",
+        "// parameter i was beyond its range and is at its bound now, or it was NaN and is as it was.",
         "unsigned set(long long point, const parameters& wanted) noexcept {",
         "  scalar* const state = state_of(point);"};
     for (const std::string& line : lines_of_point(set_program(law_), true)) batch.set.push_back("  " + line);

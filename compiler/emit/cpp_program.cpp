@@ -130,7 +130,7 @@ class CppPrinter {
     lines.push_back(fmt::format("scalar kept_share() const noexcept {{ return {}; }}", name_of(law_.share)));
   }
 
-  // What is kept of a sample that is no number is what was there before.
+  // What is kept of a NaN or infinite sample is what was there before.
   void check_by_masks(CppProgram& program) const {
     program.check = {fmt::format("sampled_ = dashpot::all_finite(position, velocity, {});", name_of(law_.checked())),
                      "const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);"};

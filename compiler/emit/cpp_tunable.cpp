@@ -33,7 +33,7 @@ std::vector<std::string> set_of(const UpdateLaw& law, const std::vector<std::str
       "// Right after step(), the command then being that of output() with the same sample and without update(): so "
       "the",
       "// force from before is held no longer, and the change injects no energy. Bit i of the result: parameter i was",
-      "// beyond its range and is at its bound now, or it was no number and is as it was.",
+      "// beyond its range and is at its bound now, or it was NaN and is as it was.",
       "unsigned set(const parameters& wanted) noexcept {", "  update();"};
   for (const std::string& line : taken_values(law)) lines.push_back("  " + line);
   for (const std::string& line : program) lines.push_back("  " + line);

@@ -36,7 +36,7 @@ class Evaluation {
   Scalar value_of(VariableId scalar) const { return at(scalar)[0]; }
   // Of all forces, what the last output() kept for the motor to be able to follow; 1 of a law that does not shed.
   Scalar kept_share() const;
-  // Values of the tunables in the order of the network's parameters; bit i: value i was no number within its range.
+  // Values of the tunables in the order of the network's parameters; bit i: value i was NaN or beyond its range.
   unsigned set(const std::vector<Scalar>& values);
 
  private:

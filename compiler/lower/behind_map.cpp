@@ -47,7 +47,7 @@ class Mapping {
     return writer_.scalar(name, unit, meaning, Role::local);
   }
 
-  // The cell of |u|, and how far in it |u| is. A position that is no number takes the first cell, and is refused
+  // The cell of |u|, and how far in it |u| is. A NaN or infinite position takes the first cell, and is refused
   // after.
   void write_place(std::vector<Statement>& program) {
     side_ = writer_.read(law_.position);

@@ -14,7 +14,7 @@ class anisotropic_tissue {
   explicit anisotropic_tissue(const Vector& position) : rest_(position) {}
 
   // Once a period: position [m] and velocity [m/s] as the device says, the force [N] that its motors are to make. What
-  // is no number makes no force.
+  // is NaN or infinite makes no force.
   Vector force(const Vector& position, const Vector& velocity) noexcept {
     return Vector(answer(along_, position.x() - rest_.x(), velocity.x()),
                   answer(across_, position.y() - rest_.y(), velocity.y()),

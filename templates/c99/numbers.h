@@ -74,7 +74,7 @@ typedef struct law_range_of_parameter {
   scalar max;
 } law_range_of_parameter;
 
-// `value` becomes what is wanted of it, within its range; what is no number at all leaves it as it is. Returns 1 where
+// `value` becomes what is wanted of it, within its range; a NaN leaves it as it is. Returns 1 where
 // that is not what was wanted, else 0.
 static inline unsigned law_take_value(const law_range_of_parameter *range, scalar wanted, scalar *value) {
   if (wanted == wanted) *value = (wanted < range->min) ? range->min : ((wanted > range->max) ? range->max : wanted);

@@ -70,10 +70,10 @@ std::string first_disagreement(const std::string& scalar) {
 }
 
 // Fails if any column of any row differs in any bit, in double.
-TEST(Agreement, of_simulated_and_emitted_double) { EXPECT_EQ(first_disagreement("double"), ""); }
+TEST(Agreement, OfSimulatedAndEmittedDouble) { EXPECT_EQ(first_disagreement("double"), ""); }
 
 // Fails likewise in float.
-TEST(Agreement, of_simulated_and_emitted_float) { EXPECT_EQ(first_disagreement("float"), ""); }
+TEST(Agreement, OfSimulatedAndEmittedFloat) { EXPECT_EQ(first_disagreement("float"), ""); }
 
 }  // namespace
 }  // namespace dashpot::testing

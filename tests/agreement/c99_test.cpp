@@ -29,7 +29,7 @@ struct Row {
   double position, velocity;
 };
 
-// Moves of all sizes, rests, and what is no number; as a float takes it.
+// Moves of all sizes, rests, NaN and infinity; as a float takes it.
 std::vector<Row> motion() {
   Random random(11);
   std::vector<Row> all;
@@ -106,7 +106,7 @@ std::optional<compiler::Device> weak_device(bool has_slew) {
   return device;
 }
 
-// Steps within the ranges and beyond them, and now and then no number.
+// Steps within the ranges and beyond them, and now and then NaN or infinity.
 std::vector<std::vector<double>> schedule_of(const compiler::UpdateLaw& law, std::uint64_t seed) {
   if (!law.tunable) return {};
   Random random(seed);

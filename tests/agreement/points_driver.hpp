@@ -19,7 +19,7 @@ bool same(Scalar a, Scalar b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-// Moves of all sizes, rests and returns, another one at each point; now and then something that is no number.
+// Moves of all sizes, rests and returns, another one at each point; now and then NaN or infinity.
 template <class Scalar>
 Scalar position_of(int point, int n) {
   if ((n + 7 * point) % 41 == 40) return std::numeric_limits<Scalar>::quiet_NaN();
@@ -59,7 +59,7 @@ auto output(Batch& batch, const Scalar* p, const Scalar* v, Scalar* d, Scalar* f
   batch.output(p, v, d, f);
 }
 
-// Parameters are set now and then, to other values at each point: within their ranges, beyond them, and to no number.
+// Parameters are set now and then, to other values at each point: within their ranges, beyond them, and to NaN.
 template <class Scalar, class Parameters>
 Parameters parameters_of(int point, int n, const Scalar* largest, std::size_t count) {
   Parameters wanted;

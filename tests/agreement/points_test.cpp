@@ -200,24 +200,22 @@ void expect_agreement(const std::string& choices, const Machines& machines) {
 
 // Fails if a point's force, damping or energy differs in any bit from the single class's, at any sample, finite or not,
 // in the fused step or in two phases, or if masks give other bits than jumps.
-TEST(Points, are_single_networks_in_double) { expect_agreement("--scheme exact", alone(gxx)); }
+TEST(Points, AreSingleNetworksInDouble) { expect_agreement("--scheme exact", alone(gxx)); }
 
 // Fails likewise in float, where modes are in delta form and registers hold twice as many.
-TEST(Points, are_single_networks_in_float) {
-  expect_agreement("--scalar float --scheme backward-euler", alone(clangxx));
-}
+TEST(Points, AreSingleNetworksInFloat) { expect_agreement("--scalar float --scheme backward-euler", alone(clangxx)); }
 
 // Fails likewise where rounding is carried along.
-TEST(Points, are_single_networks_with_compensation) { expect_agreement("--scalar float --rate 100000", alone(gxx)); }
+TEST(Points, AreSingleNetworksWithCompensation) { expect_agreement("--scalar float --rate 100000", alone(gxx)); }
 
 // Fails likewise where parameters change between samples, each point's by themselves, and points are put to rest.
-TEST(Points, are_single_networks_with_parameters_of_their_own) {
+TEST(Points, AreSingleNetworksWithParametersOfTheirOwn) {
   const TemporaryFolder folder;
   expect_agreement(folder, tunable_networks(folder.path()), "--rate 1000", Single::in_both_forms, alone(gxx));
 }
 
 // Fails likewise in float, on a motor that makes little of what is asked for, so that forces are let go of.
-TEST(Points, are_single_networks_with_parameters_on_a_weak_motor) {
+TEST(Points, AreSingleNetworksWithParametersOnAWeakMotor) {
   const TemporaryFolder folder;
   const std::string device = (folder.path() / "weak.device").string();
   write_text(device, R"({ "dashpot_device": 1, "name": "weak", "motion": "translation", "loop": { "rate": "1 kHz" },
@@ -229,7 +227,7 @@ TEST(Points, are_single_networks_with_parameters_on_a_weak_motor) {
 }
 
 // Fails likewise where slips are solved together, one point after the other, in double and in float.
-TEST(Points, are_single_networks_with_coupled_slips) {
+TEST(Points, AreSingleNetworksWithCoupledSlips) {
   for (const auto& [choices, machine] :
        {std::pair("--rate 1000", gxx), std::pair("--rate 5000 --scalar float --scheme backward-euler", clangxx)}) {
     const TemporaryFolder folder;
@@ -238,14 +236,14 @@ TEST(Points, are_single_networks_with_coupled_slips) {
 }
 
 // Fails likewise where what the solvers read is another at each point, since parameters change it.
-TEST(Points, are_single_networks_with_coupled_slips_and_parameters) {
+TEST(Points, AreSingleNetworksWithCoupledSlipsAndParameters) {
   const TemporaryFolder folder;
   expect_agreement(folder, coupled_networks(folder.path(), true), "--rate 1000", Single::with_jumps, alone(clangxx));
 }
 
 // Fails likewise where the brake's coil needs twenty samples from one regime to another, and the motor makes up for it
 // on its way.
-TEST(Points, are_single_networks_behind_a_slow_coil) {
+TEST(Points, AreSingleNetworksBehindASlowCoil) {
   const TemporaryFolder folder;
   const std::string device = (folder.path() / "coil.json").string();
   write_text(device, R"({ "dashpot_device": 1, "name": "coil", "motion": "translation", "loop": { "rate": "1 kHz" },

@@ -110,7 +110,7 @@ std::vector<Case> cases() {
 
 // Fails if a column of values is taken in another row, order or precision than set() takes it, or another law is run;
 // or the limits of a motor are known to one of the two alone.
-TEST(Agreement, of_simulated_and_emitted_set) {
+TEST(Agreement, OfSimulatedAndEmittedSet) {
   const TemporaryFolder temporary;
   const fs::path& folder = temporary.path();
   std::vector<Case> all = cases();

@@ -18,7 +18,7 @@ STEPS = 1000
 KELVIN = {"parallel": [{"spring": "400 N/m"}, {"damper": "2 N s/m"}, {"series": [{"spring": "200 N/m"}, {"damper": "40 N s/m"}]}]}
 HERTZ = {"power": 1.5, "force": "2 N", "at": "5 mm"}
 
-# What both programs of one axis begin with: 1 kHz, states below 6e-61 are 0, and what is no number leaves them alone.
+# What both programs of one axis begin with: 1 kHz, states below 6e-61 are 0, and NaN and infinity leave them alone.
 HAND = """#include <cmath>
 #include <dashpot/command.hpp>
 struct by_hand {

@@ -147,7 +147,7 @@ class AxesC99Test(CommandTest):
                 yield json.loads(network.read_text())["name"], scalar, "--device" in options, folder
 
     def rows(self, is_at_joints):
-        """Rests, jumps, and what is no number."""
+        """Rests, jumps, NaN and infinity."""
         draw, rows, last = random.Random(4), [], None
         for n, place in enumerate(motion_in_joints(700, 6)):
             place = place if is_at_joints else list(tip_of(place))

@@ -78,7 +78,7 @@ class AxesResponseTest(CommandTest):
                     said = self.said(json.loads(network.read_text())["name"])
                     self.assertIn("[  PASSED  ]", said)
                     self.assertNotIn("[  FAILED  ]", said)
-                    self.assertEqual("damps_as_its_network" in said, is_damped)
+                    self.assertEqual("DampsAsItsNetwork" in said, is_damped)
 
     def test_wrong_headers_fail(self):
         """Fails if a test passes a law that is wrong: a part in 1e12 of a stiffness or a damping, what is left after reset(), what is no
@@ -89,14 +89,14 @@ class AxesResponseTest(CommandTest):
         right = header.read_text()
         less = re.search(r"\(wanted_11 - part_\d+\) \* v1", right)[0]
         for text, wrong, found in (
-                ("across_static_stiffness = 100.0;", "across_static_stiffness = 100.0000000001;", "rests_on_its_springs"),
-                ("half_static_stiffness = 50.0;", "half_static_stiffness = 50.0000000001;", "rests_on_its_springs"),
-                ("half_base = 0.0125;", "half_base = 0.01250000000001;", "rests_on_its_springs"),
-                ("added_damping_1 = 0.00446", "added_damping_1 = 0.00447", "damps_as_its_network"),
-                (less, less.replace("-", "+"), "damps_as_its_network"),
-                ("wanted_12 * v2", "wanted_12 * v1", "damps_as_its_network"),
+                ("across_static_stiffness = 100.0;", "across_static_stiffness = 100.0000000001;", "RestsOnItsSprings"),
+                ("half_static_stiffness = 50.0;", "half_static_stiffness = 50.0000000001;", "RestsOnItsSprings"),
+                ("half_base = 0.0125;", "half_base = 0.01250000000001;", "RestsOnItsSprings"),
+                ("added_damping_1 = 0.00446", "added_damping_1 = 0.00447", "DampsAsItsNetwork"),
+                (less, less.replace("-", "+"), "DampsAsItsNetwork"),
+                ("wanted_12 * v2", "wanted_12 * v1", "DampsAsItsNetwork"),
                 ("if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) {", "if (false) {",
-                 "survives_what_is_no_number")):
+                 "SurvivesNanAndInfinity")):
             with self.subTest(wrong=wrong):
                 self.assertIn(text, right)
                 header.write_text(right.replace(text, wrong))

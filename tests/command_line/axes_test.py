@@ -201,7 +201,7 @@ class AxesTest(CommandTest):
                 gained = answers[-2][4] - answers[0][4] - work
                 self.assertLess(gained, 1e-12 * paid, f"{network.stem}, seed {seed}")
 
-    # If this fails, a sample that is no number moves the springs, or leaves the motors on.
+    # If this fails, a NaN or infinite sample moves the springs, or leaves the motors on.
     def test_a_refused_sample_changes_nothing(self):
         for network in (FIELD, BALL):
             *_, last, refused = self.answers(self.compile(network, "--device", PANTOGRAPH), self.rows(motion_in_joints(50, 9)))

@@ -81,7 +81,7 @@ class Springpot(CommandTest):
         place = re.search(r"_share = \d+\.\d", text).end()
         digit = "1" if text[place] != "1" else "2"
         header.write_text(text[:place] + digit + text[place + 1:])
-        self.refused("verify", "certificate.json", header, "--allow-uncertified", code="constant-of-nothing")
+        self.refused("verify", "certificate.json", header, "--allow-uncertified", code="constant-wrong")
 
     def test_stiffness_alone_may_be_tunable(self):
         """Fails if a tunable exponent, time, band or error passes."""

@@ -489,7 +489,7 @@ class Verify(CommandTest):
         header, certificate = self.emitted([PAPER / "visco_elasto_plastic.json"], "slips")
         self.write("soft.hpp", re.sub(r"(trial_by_change = )1000", r"\g<1>1001", header))
         self.write("slips.json", certificate)
-        self.refused("verify", "slips.json", "soft.hpp", code="constant-of-nothing")
+        self.refused("verify", "slips.json", "soft.hpp", code="constant-wrong")
 
     def test_where_a_certificate_is_none(self):
         """Fails if what is wrong with a certificate has no place, no remedy, or the words of a library."""

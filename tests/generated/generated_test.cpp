@@ -97,7 +97,7 @@ void update() {
 }
 
 // Fails if the compiler writes anything else than what is committed; the difference is printed.
-TEST(Generated, is_what_the_compiler_writes) {
+TEST(Generated, IsWhatTheCompilerWrites) {
   for (const auto& [name, text] : written_now()) {
     if (!fs::exists(recorded / name))
       ADD_FAILURE() << "generated/" << name << " is not recorded; generated_test --update writes it";
@@ -108,13 +108,13 @@ TEST(Generated, is_what_the_compiler_writes) {
 }
 
 // Fails if a header stays behind that no network makes any more.
-TEST(Generated, holds_nothing_else) {
+TEST(Generated, HoldsNothingElse) {
   const std::map<std::string, std::string> files = written_now();
   for (const std::string& name : recorded_headers()) EXPECT_EQ(files.count(name), 1u) << "generated/" << name;
 }
 
 // Fails if what is committed depends on the machine that recorded it.
-TEST(Generated, names_no_path_and_no_date) {
+TEST(Generated, NamesNoPathAndNoDate) {
   for (const std::string& name : recorded_headers()) {
     const std::string text = text_of(recorded / name);
     EXPECT_EQ(text.find(source.string()), text.npos) << name;

@@ -18,7 +18,7 @@ const Ball& ball() {
 
 // Fails if a Prony series on components does not give F r ω²λ/(ω² + λ²), 0.1 W for 1 N, 20 mm and 10 rad/s. What
 // holding its force for a period takes, ½ F r ω²T of what is not along the slide, is up to 2 % of it at 40 rad/s.
-TEST(Ball, gives_power_by_components) {
+TEST(Ball, GivesPowerByComponents) {
   EXPECT_NEAR(ball().slides.front().component_power, -0.1, 0.0005);
   for (const Ball::Slide& slide : ball().slides) {
     EXPECT_NEAR(slide.component_power, slide.expected, 0.021 * -slide.expected) << slide.speed;
@@ -29,7 +29,7 @@ TEST(Ball, gives_power_by_components) {
 // Fails if the emitted law gives power as the tool slides, or takes more than what is held for a period does: ½ F r ω²T
 // of the force, and of the brakes on x and y, which turn to the tangent by (ωT)² between them, no more than b
 // v²(ωT)²/4.
-TEST(Ball, gives_nothing_by_depth) {
+TEST(Ball, GivesNothingByDepth) {
   const double damping = chosen("ball.damper"), radius = chosen("ball.radius") - chosen("ball.depth"), period = 1e-4;
   for (const Ball::Slide& slide : ball().slides) {
     const double turn = slide.speed * period, velocity = slide.speed * radius;
@@ -41,7 +41,7 @@ TEST(Ball, gives_nothing_by_depth) {
 
 // Fails if some of the emitted law's force is along the slide, at any sample: rounding of 1 N, and of the 20 N s/m of
 // brakes that the motors take back, is 1e-15 of that.
-TEST(Ball, pushes_straight_outwards) {
+TEST(Ball, PushesStraightOutwards) {
   for (const Ball::Slide& slide : ball().slides)
     for (const ArmSample& s : slide.by_depth) {
       const double x = s.commanded.torque[0] + s.commanded.damping[0] * s.tip_velocity[0];
@@ -52,7 +52,7 @@ TEST(Ball, pushes_straight_outwards) {
 
 // Fails if at any time more energy has come out than was put in. Held forces of a press give nothing: they are of the
 // sample before, and smaller on the way in.
-TEST(Ball, never_has_given_more_than_it_took) {
+TEST(Ball, NeverHasGivenMoreThanItTook) {
   for (const Ball::Slide& slide : ball().slides) {
     EXPECT_GE(least_taken(slide.by_depth), -1e-15) << slide.speed;
     EXPECT_LT(least_taken(slide.by_components), -0.01) << slide.speed;
@@ -60,7 +60,7 @@ TEST(Ball, never_has_given_more_than_it_took) {
 }
 
 // Fails if the words stay when the numbers change sides.
-TEST(Ball, says_what_the_numbers_say) {
+TEST(Ball, SaysWhatTheNumbersSay) {
   EXPECT_TRUE(says(show(ball()), "components of the force gives 0.100 W"));
   EXPECT_TRUE(says(show(ball()), "it gives no energy"));
   Ball other = ball();

@@ -19,7 +19,7 @@ const Curl& curl() {
 
 // Fails if the gate's edge is elsewhere: a brake that is 5 % short pays for 0.95 of the joints' damping, of which the
 // gate keeps 2 % of the least in the workspace, or nine tenths of that, for limits that grow.
-TEST(Curl, passes_whole_up_to_the_edge) {
+TEST(Curl, PassesWholeUpToTheEdge) {
   EXPECT_TRUE(laws::curl::certified_for::is_certified);
   EXPECT_NEAR(curl().limit, 0.95 * (1 - 0.019), 0.95 * 0.001 + 1e-5);
   for (const Curl::Place& place : curl().places)
@@ -30,14 +30,14 @@ TEST(Curl, passes_whole_up_to_the_edge) {
 
 // Fails if without a gate the power is not 1 − ε − γ|σ|/p of the joints' own: circles of 1 mrad change r and σ by as
 // much, which over a turn is less than 1e-5 of them.
-TEST(Curl, gives_energy_without_a_gate) {
+TEST(Curl, GivesEnergyWithoutAGate) {
   for (const Curl::Place& place : curl().places) EXPECT_NEAR(place.ungated_power, place.expected, 1e-4) << place.angle;
   EXPECT_LT(curl().at(90).ungated_power, -0.2);
   EXPECT_LT(least_taken(curl().at(90).ungated), -1e-4);
 }
 
 // Fails if energy comes out behind the gate at any time, at its edge or beyond; a motion begins with nothing taken.
-TEST(Curl, never_gives_energy_behind_its_gate) {
+TEST(Curl, NeverGivesEnergyBehindItsGate) {
   for (const Curl::Place& place : curl().places) {
     EXPECT_GE(least_taken(place.gated), 0) << place.angle;
     EXPECT_GT(place.gated_power, 0) << place.angle;
@@ -46,13 +46,13 @@ TEST(Curl, never_gives_energy_behind_its_gate) {
 
 // Fails if the gate takes much more than it has to: beyond its edge (γ = 0.977) 0.95 − γ · 0.931 of the damping's own
 // is left.
-TEST(Curl, gives_little_away_beyond_its_edge) { EXPECT_NEAR(curl().at(90).gated_power, 0.95 - 0.977 * 0.931, 2e-3); }
+TEST(Curl, GivesLittleAwayBeyondItsEdge) { EXPECT_NEAR(curl().at(90).gated_power, 0.95 - 0.977 * 0.931, 2e-3); }
 
 // Fails if inside the edge the gate is felt at all, once it has opened.
-TEST(Curl, is_not_felt_inside_its_edge) { EXPECT_NEAR(curl().at(48).gated_power, curl().at(48).ungated_power, 1e-9); }
+TEST(Curl, IsNotFeltInsideItsEdge) { EXPECT_NEAR(curl().at(48).gated_power, curl().at(48).ungated_power, 1e-9); }
 
 // Fails if the words stay when the numbers change sides.
-TEST(Curl, says_what_the_numbers_say) {
+TEST(Curl, SaysWhatTheNumbersSay) {
   EXPECT_TRUE(says(show(curl()), "gate it never gives energy"));
   EXPECT_TRUE(says(show(curl()), "Without a gate it gives up to 0.22"));
   Curl other = curl();

@@ -14,26 +14,26 @@ const Fig13& fig13() {
 }
 
 // Fails if the tool is not let go at the printed velocity.
-TEST(Fig13, lets_go_at_the_printed_velocity) {
+TEST(Fig13, LetsGoAtThePrintedVelocity) {
   for (const Fig13::Part& part : fig13().parts) EXPECT_NEAR(part.release_velocity, 1.8, 0.02) << part.name;
 }
 
 // Fails if the paper's order does not come out: the single motor swings back further than the element would, the dual
 // channel less.
-TEST(Fig13, swings_back_further_by_the_single_motor) {
+TEST(Fig13, SwingsBackFurtherByTheSingleMotor) {
   EXPECT_LT(fig13().parts[1].undershoot, fig13().parts[0].undershoot);
   EXPECT_GT(fig13().parts[2].undershoot, fig13().parts[0].undershoot);
   EXPECT_GT(fig13().parts[1].overshoot, fig13().parts[2].overshoot);
 }
 
 // Fails if the size changes. The paper's ratio of 1.9 does not come out with the values of the other figures.
-TEST(Fig13, has_a_smaller_ratio_than_the_papers) {
+TEST(Fig13, HasASmallerRatioThanThePapers) {
   EXPECT_NEAR(fig13().parts[1].undershoot / fig13().parts[2].undershoot, 1.19, 0.02);
 }
 
 // Fails if the ratio does not grow with the element's stiffness and fall with the inertia, if the hand, which is gone
 // when it swings, matters to it by more than a percent, or if a hand lets go at another velocity than the printed one.
-TEST(Fig13, has_a_ratio_of_the_element_and_the_arm) {
+TEST(Fig13, HasARatioOfTheElementAndTheArm) {
   const auto& all = fig13().variations;
   ASSERT_EQ(all.size(), 8U);  // inertia fastest, then hand, then element
   for (std::size_t i = 0; i < 4; ++i) EXPECT_GT(all[i + 4].ratio(), all[i].ratio());
@@ -44,7 +44,7 @@ TEST(Fig13, has_a_ratio_of_the_element_and_the_arm) {
 }
 
 // Fails if the paper's 1.9 is out of reach over what the paper does not print, or if settling does not change sides.
-TEST(Fig13, agrees_with_the_paper_in_part_of_what_it_does_not_print) {
+TEST(Fig13, AgreesWithThePaperInPartOfWhatItDoesNotPrint) {
   const Fig13 measured = measure_fig13();
   int ratio = 0, sooner = 0;
   for (const Fig13::Variation& v : measured.variations) ratio += v.ratio() >= 1.9, sooner += v.advantage() > 0;
@@ -56,7 +56,7 @@ TEST(Fig13, agrees_with_the_paper_in_part_of_what_it_does_not_print) {
 }
 
 // Fails if the words stay when the numbers change sides.
-TEST(Fig13, says_what_the_numbers_say) {
+TEST(Fig13, SaysWhatTheNumbersSay) {
   Fig13 other = fig13();
   for (Fig13::Variation& v : other.variations) v.dual = v.single, v.dual_settling = v.single_settling + 1;
   EXPECT_TRUE(says(show(fig13()), "that the dual channel swings back less agrees with the paper in all of that range"));
@@ -71,14 +71,14 @@ TEST(Fig13, says_what_the_numbers_say) {
 }
 
 // Fails if dashpot's default does not follow the ideal more closely than the paper's laws do.
-TEST(Fig13, is_nearest_to_the_ideal_faithfully) {
+TEST(Fig13, IsNearestToTheIdealFaithfully) {
   for (const std::size_t other : {1U, 2U, 3U})
     EXPECT_LT(fig13().parts[4].distance, fig13().parts[other].distance / 5) << fig13().parts[other].name;
 }
 
 // Fails if settling changes. The paper's "faster settling" of the dual channel does not come out: it swings more
 // slowly.
-TEST(Fig13, settles_no_faster_by_the_dual_channel) {
+TEST(Fig13, SettlesNoFasterByTheDualChannel) {
   EXPECT_NEAR(fig13().parts[1].settling, 0.251, 0.01);
   EXPECT_NEAR(fig13().parts[2].settling, 0.275, 0.01);
 }

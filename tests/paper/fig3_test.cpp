@@ -18,7 +18,7 @@ double most(const std::vector<double>& values) { return *std::max_element(values
 
 // Fails if an observer with an exact brake is active under some delay: the tool-damper theorem (theory, section 4)
 // forbids it.
-TEST(Fig3, is_passive_under_any_delay_whichever_element_is_observed) {
+TEST(Fig3, IsPassiveUnderAnyDelayWhicheverElementIsObserved) {
   for (const Fig3::Case& each : fig3().cases)
     for (std::size_t observed = 0; observed < 2; ++observed)
       EXPECT_LT(most(each.observers[observed].missing), rounding) << each.title;
@@ -26,14 +26,14 @@ TEST(Fig3, is_passive_under_any_delay_whichever_element_is_observed) {
 }
 
 // Fails if the single motor is passive at a delay: then the brake would gain nothing.
-TEST(Fig3, is_active_by_the_single_motor_at_every_delay) {
+TEST(Fig3, IsActiveByTheSingleMotorAtEveryDelay) {
   for (const Fig3::Case& each : fig3().cases)
     for (std::size_t k = 1; k < fig3().delays.size(); ++k)
       EXPECT_GT(each.observers[3].missing[k], 0.5 * each.observers[2].brake) << each.title;
 }
 
 // Fails if equal elements are not one element of half the damping: observed singly they err, merged they do not.
-TEST(Fig3, merges_equal_elements) {
+TEST(Fig3, MergesEqualElements) {
   const Fig3::Case& equal = fig3().cases[0];
   EXPECT_NEAR(equal.observers[2].brake, 2.5, rounding);
   EXPECT_LT(equal.observers[2].error[five_ms], rounding);
@@ -42,7 +42,7 @@ TEST(Fig3, merges_equal_elements) {
 
 // Fails if theory's own example does not come out: at 0.5 Hz and 5 ms b = 10 is 47 % wrong (theory says 46, in time and
 // not at one frequency), b = 0.1 is not wrong by a thousandth of a percent.
-TEST(Fig3, observes_the_soft_element_of_theorys_example) {
+TEST(Fig3, ObservesTheSoftElementOfTheorysExample) {
   const Fig3::Case& unequal = fig3().cases[2];
   EXPECT_GT(unequal.pair.share(2), 1000 * unequal.pair.share(1));
   EXPECT_NEAR(unequal.observers[0].slow_error[five_ms], 0.471, 0.002);
@@ -51,7 +51,7 @@ TEST(Fig3, observes_the_soft_element_of_theorys_example) {
 
 // Fails if what the page says of the rules changes: of random pairs at 5 ms, below 5 Hz, neither the larger share nor
 // the larger damping is the better observer more often than not; the smaller damping is.
-TEST(Fig3, errs_least_by_the_smaller_damping_more_often_than_by_any_rule) {
+TEST(Fig3, ErrsLeastByTheSmallerDampingMoreOftenThanByAnyRule) {
   EXPECT_NEAR(fig3().polls[0].share(&Fig3::Poll::less_error), 0.464, 0.01);
   EXPECT_NEAR(fig3().polls[1].share(&Fig3::Poll::less_error), 0.113, 0.01);
   EXPECT_NEAR(fig3().polls[2].share(&Fig3::Poll::less_error), 0.887, 0.01);
@@ -59,12 +59,12 @@ TEST(Fig3, errs_least_by_the_smaller_damping_more_often_than_by_any_rule) {
 }
 
 // Fails if with a brake that is short the smaller damping ever needs more than the larger.
-TEST(Fig3, needs_least_by_the_smaller_damping_with_a_short_brake) {
+TEST(Fig3, NeedsLeastByTheSmallerDampingWithAShortBrake) {
   EXPECT_EQ(fig3().polls[2].less_missing_when_short, fig3().polls[2].pairs);
 }
 
 // Fails if the words stay when the numbers change sides.
-TEST(Fig3, says_what_the_numbers_say) {
+TEST(Fig3, SaysWhatTheNumbersSay) {
   EXPECT_TRUE(says(show(fig3()), "the paper’s rule does not come out"));
   EXPECT_TRUE(says(show(fig3()), "every observer is passive under any delay"));
   Fig3 other = fig3();

@@ -10,10 +10,10 @@ namespace {
 using namespace dashpot::paper;
 
 // Fails if the exact scheme is not the closed form (6) and its continuation, to rounding.
-TEST(Fig5, is_the_closed_form_by_the_exact_scheme) { EXPECT_LT(relative_error(measure_fig5().exact), 1e-12); }
+TEST(Fig5, IsTheClosedFormByTheExactScheme) { EXPECT_LT(relative_error(measure_fig5().exact), 1e-12); }
 
 // Fails if the paper's scheme errs otherwise than by hand from (13) and (15).
-TEST(Fig5, errs_as_known_by_backward_euler) {
+TEST(Fig5, ErrsAsKnownByBackwardEuler) {
   const auto euler = measure_fig5().euler;
   EXPECT_NEAR(relative_error(euler), fig5::euler_error, fig5::euler_error_digits);
   EXPECT_EQ(worst(euler).time, fig5::euler_error_time);
@@ -21,7 +21,7 @@ TEST(Fig5, errs_as_known_by_backward_euler) {
 
 // Fails if the brake's part is not b u̇ with the dampers of both Maxwell elements, or the parts do not add up to the
 // force.
-TEST(Fig5, gives_the_dampers_to_the_brake_and_the_rest_to_the_motor) {
+TEST(Fig5, GivesTheDampersToTheBrakeAndTheRestToTheMotor) {
   for (const auto& sample : measure_fig5().exact) {
     EXPECT_EQ(sample.brake, 11 * fig5::insertion.velocity(sample.time)) << sample.time;
     EXPECT_NEAR(sample.brake + sample.motor, sample.closed_form, 1e-12) << sample.time;
@@ -29,6 +29,6 @@ TEST(Fig5, gives_the_dampers_to_the_brake_and_the_rest_to_the_motor) {
 }
 
 // Fails if the program of ./try, which reads no file, assumes another rate than the one that is chosen for it.
-TEST(Fig5, has_the_chosen_rate) { EXPECT_EQ(fig5::insertion.rate, chosen("fig5.rate")); }
+TEST(Fig5, HasTheChosenRate) { EXPECT_EQ(fig5::insertion.rate, chosen("fig5.rate")); }
 
 }  // namespace

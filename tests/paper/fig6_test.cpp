@@ -17,7 +17,7 @@ const Fig6& fig6() {
 constexpr double hundredth_of_a_percent = 1e-4;
 
 // Fails if a law, the brake's part or the drive of the states is not what theory, section 4, states for backward Euler.
-TEST(Fig6, errs_as_theory_states_with_backward_euler) {
+TEST(Fig6, ErrsAsTheoryStatesWithBackwardEuler) {
   const auto& c = fig6().candidates;
   EXPECT_NEAR(c[0].relative_error, 1.496e-2, hundredth_of_a_percent);
   EXPECT_NEAR(c[1].relative_error, 0.590e-2, hundredth_of_a_percent);
@@ -26,7 +26,7 @@ TEST(Fig6, errs_as_theory_states_with_backward_euler) {
 }
 
 // Fails likewise for the exact scheme.
-TEST(Fig6, errs_as_theory_states_with_the_exact_scheme) {
+TEST(Fig6, ErrsAsTheoryStatesWithTheExactScheme) {
   const auto& c = fig6().candidates;
   EXPECT_NEAR(c[4].relative_error, 1.363e-2, hundredth_of_a_percent);
   EXPECT_NEAR(c[5].relative_error, 0.575e-2, hundredth_of_a_percent);
@@ -35,7 +35,7 @@ TEST(Fig6, errs_as_theory_states_with_the_exact_scheme) {
 }
 
 // Fails if what all are held against is not the solution of the element's differential equation.
-TEST(Fig6, holds_them_against_the_ideal_element) {
+TEST(Fig6, HoldsThemAgainstTheIdealElement) {
   constexpr double last_digit = 1e-5;
   EXPECT_NEAR(fig6_force(0.10), 0.57253, last_digit);
   EXPECT_NEAR(fig6_force(0.25), 2.32435, last_digit);
@@ -46,7 +46,7 @@ TEST(Fig6, holds_them_against_the_ideal_element) {
 
 // Fails if the paper's claim does not come out: the single motor gives back more than the element stored, the dual
 // channel less.
-TEST(Fig6, returns_most_energy_by_the_single_motor) {
+TEST(Fig6, ReturnsMostEnergyByTheSingleMotor) {
   constexpr double two_hundredths_of_a_millijoule = 0.02e-3;
   EXPECT_NEAR(fig6().candidates[0].returned, 8.20e-3, two_hundredths_of_a_millijoule);
   EXPECT_NEAR(fig6().returned, 7.07e-3, two_hundredths_of_a_millijoule);
@@ -55,14 +55,14 @@ TEST(Fig6, returns_most_energy_by_the_single_motor) {
 
 // Fails if the dual channel of the paper needs damping beside its brake, which theory's half-viscosity theorem rules
 // out but for the hold's, or if the single motor needs none.
-TEST(Fig6, needs_damping_in_the_single_motor_alone) {
+TEST(Fig6, NeedsDampingInTheSingleMotorAlone) {
   EXPECT_GT(fig6().candidates[0].minimum_damping, 0.2);
   EXPECT_EQ(fig6().candidates[1].minimum_damping, 0);
 }
 
 // Fails if the scan over frequencies and the compiler's certificate, which bounds them all, disagree about the law that
 // both know.
-TEST(Fig6, needs_what_the_certificate_says) {
+TEST(Fig6, NeedsWhatTheCertificateSays) {
   dashpot::compiler::Choices choices;
   choices.rate = 1000;
   choices.decomposition = "virtual";
@@ -75,13 +75,13 @@ TEST(Fig6, needs_what_the_certificate_says) {
 }
 
 // Fails if force and velocity are not opposed after the reversal: (14) would be within a damper's reach.
-TEST(Fig6, shows_where_no_damper_makes_the_force) {
+TEST(Fig6, ShowsWhereNoDamperMakesTheForce) {
   EXPECT_GT(fig6().unreachable, 0.05);
   EXPECT_GT(fig6_force(1.0 + fig6().unreachable / 2), 0);
 }
 
 // Fails if a reading of (20), as printed or summed, no longer has the order that the paper describes.
-TEST(Fig6, has_the_papers_order_by_both_readings_of_20) {
+TEST(Fig6, HasThePapersOrderByBothReadingsOf20) {
   for (const auto reading : {&Readings::increment, &Readings::sum}) {
     const Fall &truth = fig6().readings.*reading, &single = fig6().candidates[0].readings.*reading,
                &dual = fig6().candidates[1].readings.*reading;
@@ -93,13 +93,13 @@ TEST(Fig6, has_the_papers_order_by_both_readings_of_20) {
 
 // Fails if the increment of (20) is not what flows in a sample: after the reversal f is still 1.43 N and falls by about
 // 14 N/s while u̇ goes down by π m/s², so that f u̇ Δt is least, −0.11 mJ, some 50 ms later.
-TEST(Fig6, reads_20_as_printed_a_sample_at_a_time) {
+TEST(Fig6, Reads20AsPrintedASampleAtATime) {
   EXPECT_NEAR(fig6().readings.increment.depth, 0.110e-3, 0.002e-3);
   EXPECT_NEAR(fig6().readings.sum.depth, fig6().returned, 1e-12);
 }
 
 // Fails if the words stay when the numbers change sides.
-TEST(Fig6, says_what_the_numbers_say) {
+TEST(Fig6, SaysWhatTheNumbersSay) {
   EXPECT_TRUE(says(show(fig6()), "the order that the paper shows comes out"));
   EXPECT_FALSE(says(show(fig6()), "does not come out for"));
   Fig6 other = fig6();

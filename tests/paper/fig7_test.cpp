@@ -14,11 +14,11 @@ const Fig7& fig7() {
 }
 
 // Fails if the encoder or the rate is not the paper's: its one-sample difference jumps by 0.95 rad/s.
-TEST(Fig7, has_the_printed_quantum_of_velocity) { EXPECT_NEAR(fig7().quantum, 0.95, 0.01); }
+TEST(Fig7, HasThePrintedQuantumOfVelocity) { EXPECT_NEAR(fig7().quantum, 0.95, 0.01); }
 
 // Fails if the paper's filter has another delay than its order and cutoff give it. The paper says "approximately 5 ms":
 // that does not come out, also not where the velocity crosses zero and the encoder is silent.
-TEST(Fig7, is_late_by_the_delay_of_the_filter) {
+TEST(Fig7, IsLateByTheDelayOfTheFilter) {
   constexpr double tenth_of_a_millisecond = 1e-4;
   EXPECT_NEAR(fig7().estimates[1].delay, 3.5e-3, tenth_of_a_millisecond);
   EXPECT_GT(fig7().crossing_delay, fig7().estimates[1].delay);
@@ -26,26 +26,26 @@ TEST(Fig7, is_late_by_the_delay_of_the_filter) {
 }
 
 // Fails if an estimator does not estimate: every one but the raw difference is nearer to the truth than that.
-TEST(Fig7, shows_what_every_estimator_gains_over_the_raw_difference) {
+TEST(Fig7, ShowsWhatEveryEstimatorGainsOverTheRawDifference) {
   for (std::size_t i = 1; i < fig7().estimates.size(); ++i)
     EXPECT_LT(fig7().estimates[i].rms_error, fig7().estimates[0].rms_error / 3) << fig7().estimates[i].name;
 }
 
 // Fails if the tradeoff of section 6.2 is gone: less noise only for more delay, between the filters of both orders.
-TEST(Fig7, pays_for_smoothness_with_delay) {
+TEST(Fig7, PaysForSmoothnessWithDelay) {
   EXPECT_LT(fig7().estimates[1].noise, fig7().estimates[2].noise);
   EXPECT_GT(fig7().estimates[1].delay, fig7().estimates[2].delay + 1e-3);
 }
 
 // Fails if the strip of 7a does not show single switches: 10 ms of it hold a hundred samples.
-TEST(Fig7, shows_ten_milliseconds_of_the_raw_difference) {
+TEST(Fig7, ShowsTenMillisecondsOfTheRawDifference) {
   const Panel& raw = show(fig7()).figures.at(0).panels.at(0);
   ASSERT_TRUE(raw.x_range.has_value());
   EXPECT_NEAR(raw.x_range->high - raw.x_range->low, 10e-3, 1e-12);
 }
 
 // Fails if the words stay when the numbers change sides.
-TEST(Fig7, says_what_the_numbers_say) {
+TEST(Fig7, SaysWhatTheNumbersSay) {
   EXPECT_TRUE(says(show(fig7()), "crosses zero about 5 ms late. That does not come out"));
   Fig7 other = fig7();
   other.crossing_delay = 5e-3;

@@ -14,7 +14,7 @@ namespace {
 using namespace dashpot::paper;
 
 // Fails if an axis does not hold its data, or its ticks are not 1, 2 or 5 times a power of ten, at any magnitude.
-TEST(Axis, encloses_its_values_in_round_steps) {
+TEST(Axis, EnclosesItsValuesInRoundSteps) {
   for (int decade = -6; decade <= 6; ++decade)
     for (double digits = 1; digits < 10; digits += 0.37) {
       const double high = digits * std::pow(10, decade);
@@ -28,17 +28,17 @@ TEST(Axis, encloses_its_values_in_round_steps) {
 }
 
 // Fails if a value that is a tick but for rounding opens a further, empty step.
-TEST(Axis, does_not_grow_by_rounding) { EXPECT_EQ(ticks_for({0, 0.1 + 0.2}, 3).last, 3); }
+TEST(Axis, DoesNotGrowByRounding) { EXPECT_EQ(ticks_for({0, 0.1 + 0.2}, 3).last, 3); }
 
 // Fails if values that are all one number leave an axis without a length.
-TEST(Axis, has_a_length_for_a_constant) {
+TEST(Axis, HasALengthForAConstant) {
   const Ticks ticks = ticks_for({3, 3}, 4);
   EXPECT_LT(ticks.low(), 3);
   EXPECT_GT(ticks.high(), 3);
 }
 
 // Fails if labels lose the decimals that tell neighbouring ticks apart.
-TEST(Axis, labels_as_many_decimals_as_the_step_needs) {
+TEST(Axis, LabelsAsManyDecimalsAsTheStepNeeds) {
   EXPECT_EQ(tick_label({0.05, 0, 4}, 3), "0.15");
   EXPECT_EQ(tick_label({0.2, -1, 4}, -1), "−0.2");
   EXPECT_EQ(tick_label({20, 0, 4}, 3), "60");
@@ -55,7 +55,7 @@ double tick_at(const std::string& svg, const std::string& label, const char* coo
 }
 
 // Fails if a point is drawn anywhere but where the labels of the axes say it is.
-TEST(Figure, draws_points_where_the_axes_say) {
+TEST(Figure, DrawsPointsWhereTheAxesSay) {
   const Figure figure{"t", {}, {{"p", "time [s]", "force [N]", {{"c", emitted, {7}, {-300}}}}}};
   const std::string svg = to_svg(figure);
   const std::string panel = svg.substr(svg.find(">−300<") - 80);  // behind the legend, which shows circles too
@@ -67,7 +67,7 @@ TEST(Figure, draws_points_where_the_axes_say) {
 }
 
 // Fails if the legend names a curve twice, or not at all, or one that has no name.
-TEST(Figure, names_each_curve_once) {
+TEST(Figure, NamesEachCurveOnce) {
   const Curve named{"law & order", plain, {0, 1}, {0, 1}}, unnamed{"", plain, {0, 1}, {1, 0}};
   const std::string svg = to_svg({"t", {}, {{"a", "x", "y", {named, unnamed}}, {"b", "x", "y", {named}}}});
   const std::size_t first = svg.find(">law &amp; order<");

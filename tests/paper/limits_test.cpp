@@ -17,7 +17,7 @@ const Limits& limits() {
 constexpr double resolution = 1.06;  // of the search: 10^(1/48)
 
 // Fails if a loop is rough by itself where it is smooth with steps, noise and jitter, but for the search's resolution.
-TEST(Limits, is_smooth_only_where_the_loop_is_stable) {
+TEST(Limits, IsSmoothOnlyWhereTheLoopIsStable) {
   for (const auto* rows : {&limits().rows, &limits().modes})
     for (const Limits::Row& row : *rows)
       for (const Limits::Bound& bound : {row.raw, row.filtered})
@@ -28,7 +28,7 @@ TEST(Limits, is_smooth_only_where_the_loop_is_stable) {
 // loop, 2.613/(2π·120 Hz) of the filter, half a sample of the difference, one and a half of the loop, 0.2 ms of the
 // amplifier, half a sample of mean jitter, a shaft of inertia J under −B v̂(t − Σ) oscillates from B = (π/2) J/Σ on; the
 // hand's damper r²·8 N·s/m beside it and the filter's own roll-off move that, by less than a third.
-TEST(Limits, is_unstable_where_the_delay_says) {
+TEST(Limits, IsUnstableWhereTheDelaySays) {
   const double delay = 2.613 / (2 * 3.14159265358979323846 * 120) + 0.5e-4 + 1.5e-4 + 2e-4;
   const double expected = 1e3 * 3.14159265358979323846 / 2 * 1e-4 / delay;
   EXPECT_NEAR(limits().rows[0].filtered.stable, expected, expected / 3);
@@ -36,14 +36,14 @@ TEST(Limits, is_unstable_where_the_delay_says) {
 
 // Fails if the raw difference is not ended by the encoder's steps: one quantum of 0.96 rad/s times B, on or off half of
 // the time, is a ripple of about B/2 · rad/s before the amplifier's lag smooths it, and the friction allows 1 mN·m.
-TEST(Limits, is_ended_by_the_encoders_steps_without_a_filter) {
+TEST(Limits, IsEndedByTheEncodersStepsWithoutAFilter) {
   const Limits::Row& rigid = limits().rows[0];
   EXPECT_GT(rigid.raw.smooth, 1 / 0.48 / resolution);
   EXPECT_LT(rigid.raw.smooth, rigid.raw.stable / 5);
 }
 
 // Fails if a soft structure does not lower what the paper's filter can do, or a lighter arm does not.
-TEST(Limits, falls_with_a_soft_structure_and_a_light_arm) {
+TEST(Limits, FallsWithASoftStructureAndALightArm) {
   const auto& modes = limits().modes;  // frequency fastest, then inertia
   ASSERT_EQ(modes.size(), 4U);
   EXPECT_LT(modes[0].filtered.smooth, 0.8 * modes[1].filtered.smooth);
@@ -51,7 +51,7 @@ TEST(Limits, falls_with_a_soft_structure_and_a_light_arm) {
 }
 
 // Fails if the words stay when the numbers change sides.
-TEST(Limits, says_what_the_numbers_say) {
+TEST(Limits, SaysWhatTheNumbersSay) {
   Limits other = limits();
   other.rows.back().raw.smooth = 2;
   other.rows.back().filtered.smooth = 20;

@@ -56,7 +56,7 @@ const std::vector<Section>& sections() {
 }
 
 // Fails if a figure shows a number that is none.
-TEST(Page, draws_numbers_only) {
+TEST(Page, DrawsNumbersOnly) {
   for (const Section& section : sections())
     for (const Figure& figure : section.figures) {
       const std::string svg = to_svg(figure);
@@ -73,7 +73,7 @@ std::size_t letters(const std::string& text) {
 
 // Fails if words run over the edge of the print: its 180 mm hold about 104 letters of a caption, forty of a panel's
 // title.
-TEST(Page, keeps_words_within_the_print) {
+TEST(Page, KeepsWordsWithinThePrint) {
   for (const Section& section : sections())
     for (const Figure& figure : section.figures) {
       EXPECT_LE(letters(figure.title), 75U) << figure.title;
@@ -83,7 +83,7 @@ TEST(Page, keeps_words_within_the_print) {
 }
 
 // Fails if an axis has no unit.
-TEST(Page, labels_every_axis_with_a_unit) {
+TEST(Page, LabelsEveryAxisWithAUnit) {
   for (const Section& section : sections())
     for (const Figure& figure : section.figures)
       for (const Panel& panel : figure.panels)
@@ -92,14 +92,14 @@ TEST(Page, labels_every_axis_with_a_unit) {
 }
 
 // Fails if a table has a row that does not fit its headings.
-TEST(Page, fills_its_tables) {
+TEST(Page, FillsItsTables) {
   for (const Section& section : sections())
     for (const Table& table : section.tables)
       for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.headings.size()) << table.title;
 }
 
 // Fails if the page does not name a figure that is written beside it.
-TEST(Page, shows_every_figure) {
+TEST(Page, ShowsEveryFigure) {
   const std::string page = index_page(sections(), table_of_choices());
   for (const Section& section : sections())
     for (std::size_t i = 0; i < section.figures.size(); ++i)
@@ -107,13 +107,13 @@ TEST(Page, shows_every_figure) {
 }
 
 // Fails if a figure is too large to be sent and opened with ease, however many samples it was made of.
-TEST(Page, draws_in_less_than_200_kB) {
+TEST(Page, DrawsInLessThan200KB) {
   for (const Section& section : sections())
     for (const Figure& figure : section.figures) EXPECT_LT(to_svg(figure).size(), 200'000U) << figure.title;
 }
 
 // Fails if a curve that emitted code did not make is not said to be by another.
-TEST(Page, labels_what_emitted_code_did_not_make) {
+TEST(Page, LabelsWhatEmittedCodeDidNotMake) {
   const std::string page = index_page(sections(), {});
   std::size_t others = 0;
   for (const Section& section : sections())
@@ -131,7 +131,7 @@ TEST(Page, labels_what_emitted_code_did_not_make) {
 }
 
 // Fails if a law's author is not told from its type: by hand, emitted, emitted inside a wall by hand, evaluated.
-TEST(Page, knows_who_wrote_a_law) {
+TEST(Page, KnowsWhoWroteALaw) {
   EXPECT_EQ(law_of<laws::needle_own>().maker, Maker::emitted);
   EXPECT_EQ(law_of<WhileInside<laws::kelvin_dual>>().maker, Maker::in_wall);
   EXPECT_EQ(law_with(PrintedNeedle(1, 1, 1, 1, PrintedNeedle::Dampers::in_brake)).maker, Maker::by_hand);
@@ -140,7 +140,7 @@ TEST(Page, knows_who_wrote_a_law) {
 
 // Fails if a plot of the map cannot be read by itself: more lines than one can tell apart, or a line that its own
 // legend does not name, or no word of what stable means.
-TEST(Page, makes_each_plot_of_walls_readable_by_itself) {
+TEST(Page, MakesEachPlotOfWallsReadableByItself) {
   for (const Figure& figure : sections().back().figures) {
     EXPECT_GE(figure.caption.size(), 3U) << figure.title;
     EXPECT_TRUE(std::any_of(figure.caption.begin(), figure.caption.end(), [](const std::string& line) {
@@ -162,7 +162,7 @@ std::string sources_of_this_room() {
 }
 
 // Fails if a number is chosen that nothing uses, or one has no reason.
-TEST(Chosen, holds_what_is_used_with_its_reason) {
+TEST(Chosen, HoldsWhatIsUsedWithItsReason) {
   const std::string sources = sources_of_this_room();
   const auto file = nlohmann::json::parse(std::ifstream(DASHPOT_PAPER_ROOM "/chosen.json"));
   for (const auto& [name, choice] : file.items()) {
@@ -175,7 +175,7 @@ TEST(Chosen, holds_what_is_used_with_its_reason) {
 }
 
 // Fails if the device file assumes a value that the page does not list.
-TEST(Chosen, lists_every_assumed_value_of_the_rig) {
+TEST(Chosen, ListsEveryAssumedValueOfTheRig) {
   const auto file = nlohmann::json::parse(std::ifstream(DASHPOT_PAPER_ROOM "/chosen.json"));
   for (const std::string& key : rig().assumed)
     EXPECT_TRUE(std::any_of(file.begin(), file.end(), [&](const auto& choice) {
@@ -184,13 +184,13 @@ TEST(Chosen, lists_every_assumed_value_of_the_rig) {
 }
 
 // Fails if an experiment has a number of its own: what is not from the paper's print stands in chosen.json.
-TEST(Chosen, leaves_no_number_to_the_experiments) {
+TEST(Chosen, LeavesNoNumberToTheExperiments) {
   const std::regex constant("^constexpr (double|int|unsigned|std::size_t) [a-zA-Z_]+ = .*");
   for (const auto& entry : std::filesystem::directory_iterator(DASHPOT_PAPER_ROOM)) {
     const std::string name = entry.path().filename().string();
     const bool is_experiment =
         std::regex_match(name, std::regex("(fig[0-9]+|pareto|limits|z_width.*|hertz|ball|isotropic|curl)\\.cpp"));
-    if (!is_experiment || name == "fig5.cpp") continue;  // a program of its own, held by Fig5.has_the_chosen_rate
+    if (!is_experiment || name == "fig5.cpp") continue;  // a program of its own, held by Fig5.HasTheChosenRate
     std::ifstream file(entry.path());
     for (std::string line; std::getline(file, line);) {
       const bool is_known = line.find("print") != std::string::npos || line.find(" pi ") != std::string::npos;

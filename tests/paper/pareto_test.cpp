@@ -22,7 +22,7 @@ constexpr std::size_t one_sample = 0, papers_filter = 1;
 // Fails if a split is said to be passive under the paper's filter below half of the network's viscosity by more than
 // the arm's own damping pays for, or not to be at it, where the theorem of half the viscosity puts the line for an
 // exact brake.
-TEST(Pareto, turns_passive_near_half_the_viscosity) {
+TEST(Pareto, TurnsPassiveNearHalfTheViscosity) {
   const Pareto::Sweep& fig5 = sweep("Fig. 5", "velocity", papers_filter);
   for (const Split& split : fig5.splits) {
     const double share = split.brake / fig5.viscosity;
@@ -35,7 +35,7 @@ TEST(Pareto, turns_passive_near_half_the_viscosity) {
 }
 
 // Fails if a brake that is short does not cost what it is short of, where nothing else is missing.
-TEST(Pareto, pays_for_a_brake_that_is_short) {
+TEST(Pareto, PaysForABrakeThatIsShort) {
   for (const Split& split : sweep("Fig. 5", "velocity", papers_filter).splits)
     if (split.brake > 5) {
       EXPECT_GT(split.missing[2], split.missing[0] + 0.04 * split.brake) << split.brake;
@@ -43,7 +43,7 @@ TEST(Pareto, pays_for_a_brake_that_is_short) {
 }
 
 // Fails if the b that needs least is another than the page says.
-TEST(Pareto, has_no_one_winner_driven_by_velocity) {
+TEST(Pareto, HasNoOneWinnerDrivenByVelocity) {
   const Pareto::Sweep& fig5 = sweep("Fig. 5", "velocity", papers_filter);
   EXPECT_NEAR(fig5.best(0).brake, 6.60, 0.37);  // one step of the sweep
   EXPECT_NEAR(fig5.best(1).brake, 0.37, 0.37);
@@ -53,7 +53,7 @@ TEST(Pareto, has_no_one_winner_driven_by_velocity) {
 }
 
 // Fails if driving by position stops being free of noise and extra damping without a brake, or if some brake errs less.
-TEST(Pareto, is_won_by_no_brake_driven_by_position) {
+TEST(Pareto, IsWonByNoBrakeDrivenByPosition) {
   for (const char* network : {"Fig. 5", "Fig. 6"})
     for (std::size_t estimator = 0; estimator < 3; ++estimator)
       for (std::size_t error = 0; error < brake_errors.size(); ++error) {
@@ -67,14 +67,14 @@ TEST(Pareto, is_won_by_no_brake_driven_by_position) {
 
 // Fails if the rig's brake reaches half of Fig. 5's viscosity, or does not reach half of Fig. 6's: the page says what
 // that means.
-TEST(Pareto, leaves_fig_5_beyond_the_rigs_brake) {
+TEST(Pareto, LeavesFig5BeyondTheRigsBrake) {
   constexpr double reach = 2.8;  // [N·s/m]
   EXPECT_GT(sweep("Fig. 5", "velocity", papers_filter).viscosity / 2, reach);
   EXPECT_LT(sweep("Fig. 6", "velocity", papers_filter).viscosity / 2, reach);
 }
 
 // Fails if the words stay when the numbers change sides.
-TEST(Pareto, says_what_the_numbers_say) {
+TEST(Pareto, SaysWhatTheNumbersSay) {
   EXPECT_TRUE(says(show(pareto()), "then needs least, and wins"));
   EXPECT_TRUE(says(show(pareto()), "is below ½ Z_d(0)"));
   Pareto other = pareto();

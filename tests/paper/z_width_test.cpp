@@ -21,7 +21,7 @@ const ZWidth& thinned_map() {
 }
 
 // Fails if a certified wall ever gives more energy than it took, with any hand, at any instant.
-TEST(ZWidth, never_gains_energy_where_it_is_certified) {
+TEST(ZWidth, NeverGainsEnergyWhereItIsCertified) {
   constexpr double rounding = 1e-12;  // of the ledger, whose entries are millijoules
   unsigned runs = 0;
   for (std::size_t i = 0; i < thinned_map().points.size(); ++i) {
@@ -32,7 +32,7 @@ TEST(ZWidth, never_gains_energy_where_it_is_certified) {
 }
 
 // Fails if energy that is gained went unseen: well above the stable boundary it is, where stiffness is what breaks it.
-TEST(ZWidth, sees_energy_that_is_gained) {
+TEST(ZWidth, SeesEnergyThatIsGained) {
   for (std::size_t i = 0; i < thinned_map().points.size(); ++i) {
     const MapPoint& point = thinned_map().points[i];
     if (point.stable > 0 && thinned_map().places[i].damping < 5) {
@@ -42,14 +42,14 @@ TEST(ZWidth, sees_energy_that_is_gained) {
 }
 
 // Fails if the certificate promises more than the simulation holds.
-TEST(ZWidth, certifies_no_wall_that_is_unstable) {
+TEST(ZWidth, CertifiesNoWallThatIsUnstable) {
   for (std::size_t i = 0; i < thinned_map().points.size(); ++i)
     EXPECT_LE(thinned_map().points[i].certified, thinned_map().points[i].stable) << thinned_map().places[i].key();
 }
 
 // Fails if the dual channel's brake widens neither what is stable nor what is certified against the same estimator
 // without it.
-TEST(ZWidth, is_wider_by_the_dual_channel) {
+TEST(ZWidth, IsWiderByTheDualChannel) {
   const std::size_t dampings = 4, single = 2 * dampings, dual = 4 * dampings;  // of two rates each
   for (std::size_t i = 0; i < 2 * dampings; ++i) {
     const MapPoint &without = thinned_map().points[single + i], &with = thinned_map().points[dual + i];
@@ -59,7 +59,7 @@ TEST(ZWidth, is_wider_by_the_dual_channel) {
 }
 
 // Fails if an interrupted map is begun anew, or a line that was cut off is believed.
-TEST(ZWidth, goes_on_where_it_was_interrupted) {
+TEST(ZWidth, GoesOnWhereItWasInterrupted) {
   const dashpot::testing::TemporaryFolder folder;
   const std::string file = folder.path() / "z_width.csv";
   std::vector<MapPlace> places = map_places(true);
@@ -77,7 +77,7 @@ TEST(ZWidth, goes_on_where_it_was_interrupted) {
 }
 
 // Fails if a finished map is taken for an interrupted one, or one of other places is believed.
-TEST(ZWidth, begins_anew_after_a_finished_map) {
+TEST(ZWidth, BeginsAnewAfterAFinishedMap) {
   const dashpot::testing::TemporaryFolder folder;
   const std::string file = folder.path() / "z_width.csv";
   std::vector<MapPlace> places = map_places(true);
@@ -88,7 +88,7 @@ TEST(ZWidth, begins_anew_after_a_finished_map) {
 }
 
 // Fails if the words stay when the numbers change sides.
-TEST(ZWidth, says_what_the_numbers_say) {
+TEST(ZWidth, SaysWhatTheNumbersSay) {
   ZWidth map = thinned_map();
   EXPECT_TRUE(says(show(map), "Certified walls never gave energy"));
   map.points[0].lowest_energy = -1;

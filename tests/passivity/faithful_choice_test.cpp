@@ -130,12 +130,12 @@ void expect_nothing_larger(std::uint64_t seed) {
 
 // Fails if some damping that the brake can give, with any state input, is larger than the choice and meets its rule, or
 // if the choice itself does not meet it.
-TEST(FaithfulChoice, no_scan_finds_a_larger_damping) {
+TEST(FaithfulChoice, NoScanFindsALargerDamping) {
   for (int seed = 0; seed < faithful_choices(); ++seed) expect_nothing_larger(std::uint64_t(seed));
 }
 
 // Fails if a place is lost that is a millionth of the brake's reach wide, or one at the very edge of the error allowed.
-TEST(FaithfulChoice, misses_neither_small_places_nor_edges) {
+TEST(FaithfulChoice, MissesNeitherSmallPlacesNorEdges) {
   for (const std::uint64_t seed : {142u, 290u, 355u}) expect_nothing_larger(seed);
 }
 

@@ -30,9 +30,11 @@ std::string text_of(const std::string& path) {
 
 // What dashpot-check ends with: it knows linear laws with a statement that it can check, of which some lack damping,
 // and of the hold certificate that without an amplifier's lag.
-int status_of(const Certificate& certificate) {
+int status_of(const Compilation& compiled) {
+  const Certificate& certificate = compiled.certificate;
   const PassivityBound& bound = certificate.bound;
-  const bool is_linear = !bound.any_regime && !bound.any_value && certificate.loop.motor_slew == 0;
+  const bool is_of_many = bound.any_regime || bound.any_value || compiled.law.tunable.has_value();
+  const bool is_linear = !is_of_many && certificate.loop.motor_slew == 0;
   const bool is_by_hold = bound.proof == Proof::hold;
   if (!is_linear || (is_by_hold && certificate.loop.amplifier_lag > 0)) return 3;
   if (!is_by_hold && !bound.storage) return 1;
@@ -58,7 +60,7 @@ std::string faults(const std::string& network_text, const std::optional<std::str
                                certificate_text(*compiled, choices, network_text, device_text, header)),
       file("header.hpp", header);
   const auto [status, words] = dashpot_check::verdict(header, std::string(certificate.text()));
-  if (status != status_of(compiled->certificate)) return words;
+  if (status != status_of(*compiled)) return words;
   Diagnostics found;
   if (verify_texts(certificate, file, true, files, found)) return "";
   return render_text(found);

@@ -155,7 +155,7 @@ class Package(PackageTest):
                 module.Law().set(**{name: parameter.max})
 
     def test_wrong_arrays(self):
-        """Fails if rows that do not fit are read or written beyond their end, or what is no number passes for one."""
+        """Fails if rows that do not fit are read or written beyond their end, or NaN passes for a number."""
         law = self.emitted(FIG_5).Law()
         with self.assertRaisesRegex(ValueError, "position has 2 dimensions"):
             law.simulate(numpy.zeros((3, 2)))

@@ -9,7 +9,7 @@ namespace dashpot::responses {
 namespace {
 
 // Fails if a network of the repository is not among the laws under test, so that the loops below pass it over.
-TEST(EmittedLaws, are_there_for_every_linear_network) {
+TEST(EmittedLaws, AreThereForEveryLinearNetwork) {
   std::set<std::string> networks;
   for (const EmittedLaw& law : laws_of_variant("exact_1khz")) networks.insert(law.network);
   for (const char* name : {"kelvin", "bridge", "generalised_kelvin_four", "heel_fat_pad", "swine_kidney_cortex",
@@ -19,7 +19,7 @@ TEST(EmittedLaws, are_there_for_every_linear_network) {
 }
 
 // Fails if a class says another period or kind of motion than its network and rate have.
-TEST(EmittedLaws, know_their_period_and_motion) {
+TEST(EmittedLaws, KnowTheirPeriodAndMotion) {
   for (const EmittedLaw& law : all_laws()) {
     const double period = 1 / law.rate();
     EXPECT_EQ(law.sample_period, law.is_float() ? double(float(period)) : period) << law.title();
@@ -28,7 +28,7 @@ TEST(EmittedLaws, know_their_period_and_motion) {
 }
 
 // Fails if the force during a ramp departs from f = r [k0 t + b∞ + Σ B_i (1 − e^{−λ_i t})], which is (6).
-TEST(ClosedForms, follow_the_ramp) {
+TEST(ClosedForms, FollowTheRamp) {
   for (const EmittedLaw& law : all_laws()) {
     const ClosedForm network(law);
     const double rate = 256 * unit_increment * law.rate();
@@ -43,7 +43,7 @@ TEST(ClosedForms, follow_the_ramp) {
 }
 
 // Fails if relaxation under a held position is not the network's own.
-TEST(ClosedForms, relax_while_held) {
+TEST(ClosedForms, RelaxWhileHeld) {
   for (const EmittedLaw& law : all_laws()) {
     const Motion motion = ramp_and_hold(300, 700);
     expect_felt_force(law, motion, ClosedForm(law).force(motion));
@@ -51,7 +51,7 @@ TEST(ClosedForms, relax_while_held) {
 }
 
 // Fails if any state is driven wrongly where the slope changes: 30 rises, falls and rests.
-TEST(ClosedForms, follow_motions_that_are_linear_between_knots) {
+TEST(ClosedForms, FollowMotionsThatAreLinearBetweenKnots) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed)
     for (const EmittedLaw& law : all_laws()) {
       SCOPED_TRACE("seed " + std::to_string(seed));
@@ -62,7 +62,7 @@ TEST(ClosedForms, follow_motions_that_are_linear_between_knots) {
 
 // Fails if a step, which a sampled law sees as a ramp of one period, is not answered by Σ c_i a_iⁿ with
 // c_i = k_i (1 − a_i)/(λ_i h), and by an impulse of the feedthrough damping in the first sample alone.
-TEST(ClosedForms, answer_the_step_with_its_discrete_answer) {
+TEST(ClosedForms, AnswerTheStepWithItsDiscreteAnswer) {
   constexpr double height = 1024 * unit_increment;
   for (const EmittedLaw& law : all_laws()) {
     const ClosedForm network(law);

@@ -43,7 +43,7 @@ double error_of(const std::string& variant, const std::string& name) {
 }
 
 // Fails if the error under a sine does not fall as the square of the step; where a network has no modes there is none.
-TEST(Sine, is_met_to_the_second_order) {
+TEST(Sine, IsMetToTheSecondOrder) {
   for (const EmittedLaw& law : laws_of_variant("exact_8khz")) {
     const double coarse = error_of("exact_8khz", law.network), middle = error_of("exact_16khz", law.network);
     const double fine = error_of("exact_32khz", law.network);

@@ -15,7 +15,7 @@ const char* const candidates[] = {"exact_1khz",          "split_zero_frequency",
                                   "split_given"};
 
 // Fails if any law, ever, asks the brake for a negative damping, or for another than its decomposition chose.
-TEST(Decomposition, gives_the_brake_what_was_chosen) {
+TEST(Decomposition, GivesTheBrakeWhatWasChosen) {
   for (const EmittedLaw& law : all_laws()) {
     const double chosen = law.compilation().decomposition.choice().damping;
     const double damping = law.is_float() ? double(float(chosen)) : chosen;
@@ -30,7 +30,7 @@ TEST(Decomposition, gives_the_brake_what_was_chosen) {
 }
 
 // Fails if the sum of the two parts depends on how they were parted: each rounds a few times, by its own size.
-TEST(Decomposition, does_not_change_the_force) {
+TEST(Decomposition, DoesNotChangeTheForce) {
   for (const EmittedLaw& reference : laws_of_variant("split_virtual"))
     for (const char* variant : candidates) {
       const EmittedLaw& law = law_of(variant, reference.network);
@@ -45,7 +45,7 @@ TEST(Decomposition, does_not_change_the_force) {
 }
 
 // Fails if a candidate means something else than theory, section 4, says of the paper's own model.
-TEST(Decomposition, of_the_second_order_model_is_the_papers) {
+TEST(Decomposition, OfTheSecondOrderModelIsThePapers) {
   const auto damping_of = [](const char* variant) {
     return law_of(variant, "second_order_maxwell").make()->step(0, 0).damping;
   };
@@ -59,7 +59,7 @@ TEST(Decomposition, of_the_second_order_model_is_the_papers) {
 }
 
 // Fails if `velocity-free` lets any estimate into the motor: its force must not depend on the velocity at all.
-TEST(Decomposition, velocity_free_needs_no_estimate) {
+TEST(Decomposition, VelocityFreeNeedsNoEstimate) {
   for (const EmittedLaw& law : laws_of_variant("split_velocity_free")) {
     const std::shared_ptr<Model> one = law.make(), other = law.make();
     for (const Sample& sample : samples_of(random_motion(11, 20), law.sample_period))

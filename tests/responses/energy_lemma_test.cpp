@@ -30,7 +30,7 @@ double rounding_of(const EmittedLaw& law, double energies_and_work) {
 
 // Fails if a position driven law releases energy that it did not take: V_k − V_{k−1} ≤ f_k Δu_k at every sample, for
 // both schemes and any motion.
-TEST(EnergyLemma, holds_for_position_driven_laws) {
+TEST(EnergyLemma, HoldsForPositionDrivenLaws) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed)
     for (const EmittedLaw& law : all_laws()) {
       if (law.state_input() != compiler::StateInput::position) continue;
@@ -49,7 +49,7 @@ TEST(EnergyLemma, holds_for_position_driven_laws) {
 }
 
 // Fails if stored_energy() is not ½ k0 u² + Σ F_i²/2k_i: a ramp slow enough loads the spring alone, a step loads all.
-TEST(EnergyLemma, speaks_of_the_energy_in_the_springs) {
+TEST(EnergyLemma, SpeaksOfTheEnergyInTheSprings) {
   const std::shared_ptr<Model> model = law_of("exact_1khz", "second_order_maxwell").make();
   model->reset(0.25);
   EXPECT_EQ(model->stored_energy(), 0.5 * 5 * 0.25 * 0.25);
@@ -63,7 +63,7 @@ TEST(EnergyLemma, speaks_of_the_energy_in_the_springs) {
 }
 
 // Fails if energy is counted below zero or if a law that is shaken and left alone keeps what its dampers should eat.
-TEST(EnergyLemma, leaves_the_static_spring_alone_in_the_end) {
+TEST(EnergyLemma, LeavesTheStaticSpringAloneInTheEnd) {
   const EmittedLaw& law = law_of("exact_1khz", "second_order_maxwell");
   const std::shared_ptr<Model> model = law.make();
   model->reset(0);

@@ -20,8 +20,8 @@ void move(Model& model, const EmittedLaw& law, std::uint64_t seed, int segments)
     model.step(sample.position, sample.velocity);
 }
 
-// Fails if a sample that is no number changes a single bit of the states, moves the motor or lets go of the brake.
-TEST(ExtremeInputs, that_are_no_numbers_leave_no_trace) {
+// Fails if a NaN or infinite sample changes a single bit of the states, moves the motor or lets go of the brake.
+TEST(ExtremeInputs, ThatAreNoNumbersLeaveNoTrace) {
   for (const EmittedLaw& law : all_laws()) {
     const std::shared_ptr<Model> model = law.make();
     model->reset(0);
@@ -43,7 +43,7 @@ bool all_finite(const std::vector<double>& numbers) {
 
 // Fails if numbers near the largest ones, alternating, at random, or held, leave an infinity or a NaN in a state, after
 // which every command would be refused for ever.
-TEST(ExtremeInputs, of_any_size_do_not_poison_the_states) {
+TEST(ExtremeInputs, OfAnySizeDoNotPoisonTheStates) {
   for (const EmittedLaw& law : all_laws()) {
     const double huge = law.is_float() ? 1e30 : 1e300,
                  most = law.is_float() ? double(std::numeric_limits<float>::max()) : largest;
@@ -63,7 +63,7 @@ TEST(ExtremeInputs, of_any_size_do_not_poison_the_states) {
 }
 
 // Fails if one glitch of the encoder outlives the relaxation that it set off.
-TEST(ExtremeInputs, are_forgotten_as_fast_as_the_network_relaxes) {
+TEST(ExtremeInputs, AreForgottenAsFastAsTheNetworkRelaxes) {
   const std::shared_ptr<Model> struck = law_of("exact_1khz", "second_order_maxwell").make();
   struck->reset(0);
   struck->step(1e300, 0);

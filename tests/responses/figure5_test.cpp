@@ -53,20 +53,20 @@ Departure departure_of(const std::string& variant) {
 }
 
 // Fails if the exact scheme is not exact for a ramp and a hold, at the paper's own step or at a servo loop's.
-TEST(Figure5, is_met_exactly_at_any_step) {
+TEST(Figure5, IsMetExactlyAtAnyStep) {
   EXPECT_LE(departure_of("exact_5hz").largest, 1e-12);
   EXPECT_LE(departure_of("exact_1khz").largest, 1e-12);
 }
 
 // Fails if backward Euler at the paper's 200 ms is not off by what that scheme must be off.
-TEST(Figure5, is_missed_by_backward_euler_by_two_percent_at_200_ms) {
+TEST(Figure5, IsMissedByBackwardEulerByTwoPercentAt200Ms) {
   const Departure departure = departure_of("euler_5hz");
   EXPECT_NEAR(100 * departure.largest, 2.200, 0.001);
   EXPECT_NEAR(departure.time, 0.6, 1e-9);
 }
 
 // Fails if backward Euler does not converge, or not by its first order.
-TEST(Figure5, is_approached_by_backward_euler_as_the_step) {
+TEST(Figure5, IsApproachedByBackwardEulerAsTheStep) {
   const double at_8_ms = departure_of("euler_125hz").largest, at_4_ms = departure_of("euler_250hz").largest;
   const double at_2_ms = departure_of("euler_500hz").largest, at_1_ms = departure_of("euler_position").largest;
   EXPECT_NEAR(std::log2(at_8_ms / at_4_ms), 1, 0.05);
@@ -75,7 +75,7 @@ TEST(Figure5, is_approached_by_backward_euler_as_the_step) {
 }
 
 // Fails if the brake is not given B1 + B2, the paper's choice, or the motor does not make up the rest.
-TEST(Figure5, shares_the_force_as_the_paper_does) {
+TEST(Figure5, SharesTheForceAsThePaperDoes) {
   const std::shared_ptr<Model> model = law_of("exact_5hz", "second_order_maxwell").make();
   model->reset(0);
   const Command first = model->step(strain_rate * 0.2, strain_rate);

@@ -44,7 +44,7 @@ constexpr double printed = 0.0006;  // the figures have three decimals
 
 // Fails if the brake's part, the motor's part or the drive of the states differs from the law whose error theory,
 // section 4, states for backward Euler.
-TEST(Figure6, has_the_stated_errors_with_backward_euler) {
+TEST(Figure6, HasTheStatedErrorsWithBackwardEuler) {
   EXPECT_NEAR(felt_error("virtual_backward_euler_velocity"), 1.496, printed);
   EXPECT_NEAR(felt_error("euler_velocity"), 0.590, printed);
   EXPECT_NEAR(felt_error("euler_position"), 1.534, printed);
@@ -52,7 +52,7 @@ TEST(Figure6, has_the_stated_errors_with_backward_euler) {
 }
 
 // Fails likewise for the exact scheme.
-TEST(Figure6, has_the_stated_errors_with_the_exact_scheme) {
+TEST(Figure6, HasTheStatedErrorsWithTheExactScheme) {
   EXPECT_NEAR(felt_error("virtual_exact_velocity"), 1.363, printed);
   EXPECT_NEAR(felt_error("exact_velocity"), 0.575, printed);
   EXPECT_NEAR(felt_error("exact_1khz"), 1.643, printed);

@@ -42,7 +42,7 @@ void expect_same_force(const std::string& variant, const std::string& network, P
 
 // Fails if `position` driven backward Euler is not the paper's law for the spring at the tool: (13), then (15) read as
 // K(u − x_k).
-TEST(PrintedLaws, of_figure_4a_is_the_position_driven_one) {
+TEST(PrintedLaws, OfFigure4aIsThePositionDrivenOne) {
   constexpr double K = 50, B = 5;
   double x = 0;
   expect_same_force("euler_position", "maxwell_spring_at_tool", [&](double u, double) {
@@ -53,7 +53,7 @@ TEST(PrintedLaws, of_figure_4a_is_the_position_driven_one) {
 
 // Fails if `velocity` driven backward Euler is not the paper's law for the damper at the tool, (17) and (19), or if
 // `nodal`, whose observer is that damper, is another.
-TEST(PrintedLaws, of_figure_4b_is_the_velocity_driven_and_the_nodal_one) {
+TEST(PrintedLaws, OfFigure4bIsTheVelocityDrivenAndTheNodalOne) {
   constexpr double K = 50, B = 5;
   for (const char* variant : {"euler_velocity", "euler_nodal"}) {
     double x = 0;
@@ -66,7 +66,7 @@ TEST(PrintedLaws, of_figure_4b_is_the_velocity_driven_and_the_nodal_one) {
 }
 
 // Fails if the second-order model is not the sum of its branches, each by (17) and (19), and its spring.
-TEST(PrintedLaws, of_branches_add_up) {
+TEST(PrintedLaws, OfBranchesAddUp) {
   constexpr double K[] = {12, 10}, B[] = {5, 6}, K3 = 5;
   for (const char* variant : {"euler_velocity", "euler_nodal"}) {
     double x[] = {0, 0};
@@ -84,7 +84,7 @@ TEST(PrintedLaws, of_branches_add_up) {
 
 // Fails if `nodal` is not the paper's generalised Kelvin model, (10) and (11), whose element 1, next to the tool, is
 // the observer: of networks/paper/generalised_kelvin_two.json it is the one with B/K² larger.
-TEST(PrintedLaws, of_figure_3_is_the_nodal_one) {
+TEST(PrintedLaws, OfFigure3IsTheNodalOne) {
   constexpr double K1 = 80, B1 = 6, K2 = 200, B2 = 4;
   static_assert(B1 / (K1 * K1) > B2 / (K2 * K2));
   double x = 0;
@@ -97,7 +97,7 @@ TEST(PrintedLaws, of_figure_3_is_the_nodal_one) {
 
 // Fails if the three drives differ when the velocity is the backward difference of the positions, where they are one
 // law.
-TEST(PrintedLaws, coincide_for_the_backward_difference) {
+TEST(PrintedLaws, CoincideForTheBackwardDifference) {
   for (const EmittedLaw& reference : laws_of_variant("euler_nodal"))
     for (const char* variant : {"euler_position", "euler_velocity"}) {
       const EmittedLaw& law = law_of(variant, reference.network);
@@ -114,7 +114,7 @@ TEST(PrintedLaws, coincide_for_the_backward_difference) {
 }
 
 // Fails if `nodal` is taken for one of the other two where both a spring and a damper join the tool to an inner node.
-TEST(PrintedLaws, differ_for_two_kelvin_elements_and_an_estimate) {
+TEST(PrintedLaws, DifferForTwoKelvinElementsAndAnEstimate) {
   const std::shared_ptr<Model> nodal = law_of("euler_nodal", "generalised_kelvin_two").make();
   const std::shared_ptr<Model> position = law_of("euler_position", "generalised_kelvin_two").make();
   const std::shared_ptr<Model> velocity = law_of("euler_velocity", "generalised_kelvin_two").make();

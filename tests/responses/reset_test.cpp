@@ -17,7 +17,7 @@ void move(Model& model, const EmittedLaw& law) {
 }
 
 // Fails if anything of the past survives a reset, even a sample that still waits for update().
-TEST(Reset, leaves_nothing_of_the_past) {
+TEST(Reset, LeavesNothingOfThePast) {
   for (const EmittedLaw& law : all_laws()) {
     const std::shared_ptr<Model> used = law.make(), fresh = law.make();
     move(*used, law);
@@ -31,7 +31,7 @@ TEST(Reset, leaves_nothing_of_the_past) {
 }
 
 // Fails if a network that was reset at p pushes with more than k0 p there, or drifts.
-TEST(Reset, loads_the_static_spring_alone) {
+TEST(Reset, LoadsTheStaticSpringAlone) {
   for (const EmittedLaw& law : all_laws()) {
     const double k0 = ClosedForm(law).static_stiffness();
     const double expected = law.is_float() ? double(float(k0) * float(rest)) : k0 * rest;
@@ -43,7 +43,7 @@ TEST(Reset, loads_the_static_spring_alone) {
 }
 
 // Fails if an object that was never reset is not at rest at 0.
-TEST(Reset, is_not_needed_at_zero) {
+TEST(Reset, IsNotNeededAtZero) {
   for (const EmittedLaw& law : all_laws()) {
     const std::shared_ptr<Model> fresh = law.make(), reset = law.make();
     reset->reset(0);
@@ -51,8 +51,8 @@ TEST(Reset, is_not_needed_at_zero) {
   }
 }
 
-// Fails if a position that is no number, given to reset(), leaves a law that refuses every sample from then on.
-TEST(Reset, at_no_number_is_a_reset_at_zero) {
+// Fails if a NaN or infinite position, given to reset(), leaves a law that refuses every sample from then on.
+TEST(Reset, AtNoNumberIsAResetAtZero) {
   for (const EmittedLaw& law : all_laws())
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
       const std::shared_ptr<Model> model = law.make(), expected = law.make();

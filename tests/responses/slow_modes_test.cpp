@@ -38,7 +38,7 @@ double largest_error(Next next) {
 
 // Fails if the trap that the delta form is for is not there: F ← a F + c Δu in float, its coefficients worked out in
 // float.
-TEST(SlowModes, are_ruined_by_careless_float) {
+TEST(SlowModes, AreRuinedByCarelessFloat) {
   const float decay = std::exp(-relaxation_rate * period);
   const float gain = stiffness * (1 - decay) / (relaxation_rate * period);
   const double error = largest_error([&](float force, float change) { return decay * force + gain * change; });
@@ -46,7 +46,7 @@ TEST(SlowModes, are_ruined_by_careless_float) {
 }
 
 // Fails if the delta form alone would do, so that compensation were waste.
-TEST(SlowModes, are_within_a_thousandth_by_the_delta_form) {
+TEST(SlowModes, AreWithinAThousandthByTheDeltaForm) {
   const float loss = float(-std::expm1(-1e-6)), gain = float(double(stiffness) * -std::expm1(-1e-6) / 1e-6);
   const double error = largest_error([&](float force, float change) { return force + (gain * change - loss * force); });
   EXPECT_GT(error, 1e-5);
@@ -70,7 +70,7 @@ double emitted_error(const EmittedLaw& law) {
 
 // Fails if an emitted law departs from its mode's own force by more than the bound that its banner states: the mode's,
 // and one roundoff for each of the two operations that make the command of it.
-TEST(SlowModes, keep_to_the_stated_bound) {
+TEST(SlowModes, KeepToTheStatedBound) {
   for (const char* variant : {"slow_double", "slow_float", "slow_float_euler"}) {
     const EmittedLaw& law = law_of(variant, "ten_seconds");
     const double roundoff = law.is_float() ? 0x1p-24 : 0x1p-53;

@@ -52,7 +52,7 @@ Errors errors_of(const std::string& network) {
 }
 
 // Fails if the three drives are not three laws with errors of their own, or `nodal` never is the best.
-TEST(StateInput, nodal_is_best_for_one_network) {
+TEST(StateInput, NodalIsBestForOneNetwork) {
   const Errors errors = errors_of("kelvins_for_nodal");
   EXPECT_NEAR(errors.nodal, 0.0331, 0.0001);
   EXPECT_NEAR(errors.velocity, 0.0531, 0.0001);
@@ -60,7 +60,7 @@ TEST(StateInput, nodal_is_best_for_one_network) {
 }
 
 // Fails if `velocity` never is.
-TEST(StateInput, velocity_is_best_for_another) {
+TEST(StateInput, VelocityIsBestForAnother) {
   const Errors errors = errors_of("kelvins_for_velocity");
   EXPECT_NEAR(errors.nodal, 0.0924, 0.0001);
   EXPECT_NEAR(errors.velocity, 0.0457, 0.0001);
@@ -68,7 +68,7 @@ TEST(StateInput, velocity_is_best_for_another) {
 }
 
 // Fails if `position` never is.
-TEST(StateInput, position_is_best_for_a_third) {
+TEST(StateInput, PositionIsBestForAThird) {
   const Errors errors = errors_of("kelvins_for_position");
   EXPECT_LT(errors.position, 0.5 * errors.nodal);
   EXPECT_LT(errors.position, 0.5 * errors.velocity);

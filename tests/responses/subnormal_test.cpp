@@ -39,7 +39,7 @@ class SubnormalWatch {
 };
 
 // Fails if the watch is blind.
-TEST(Subnormal, is_seen_by_the_watch) {
+TEST(Subnormal, IsSeenByTheWatch) {
   const SubnormalWatch watch;
   volatile double number = 1e-300;
   EXPECT_FALSE(watch.saw_one());
@@ -53,7 +53,7 @@ constexpr int held = 1200000;
 constexpr int stride = 97;  // a state that decays too slowly to be seen at once stays subnormal for longer than this
 
 // Fails if a state that decays becomes subnormal, or anything computed of it.
-TEST(Subnormal, is_never_a_state_that_decays) {
+TEST(Subnormal, IsNeverAStateThatDecays) {
   for (const char* variant : {"exact_1khz", "euler_nodal", "float_exact"})
     for (const EmittedLaw& law : laws_of_variant(variant)) {
       if (law.compilation().form.linear.modes.size() > 100) continue;
@@ -73,7 +73,7 @@ TEST(Subnormal, is_never_a_state_that_decays) {
 }
 
 // Fails if the threshold is never reached, so that the test above shows nothing, or can be felt.
-TEST(Subnormal, is_forestalled_by_exactly_zero) {
+TEST(Subnormal, IsForestalledByExactlyZero) {
   const EmittedLaw& law = law_of("exact_1khz", "maxwell_reversal");
   const std::shared_ptr<Model> model = law.make();
   model->reset(0);
@@ -90,7 +90,7 @@ TEST(Subnormal, is_forestalled_by_exactly_zero) {
 
 // Fails if emitted code guards other places at a sample than `simulate` does, where guards take turns, or one of them
 // never.
-TEST(Subnormal, is_forestalled_in_turn_as_in_simulate) {
+TEST(Subnormal, IsForestalledInTurnAsInSimulate) {
   int laws = 0;
   for (const char* variant : {"exact_1khz", "euler_nodal"})
     for (const EmittedLaw& law : laws_of_variant(variant)) {
@@ -113,7 +113,7 @@ TEST(Subnormal, is_forestalled_in_turn_as_in_simulate) {
 }
 
 // Fails if a constant of any law is itself subnormal.
-TEST(Subnormal, is_no_constant) {
+TEST(Subnormal, IsNoConstant) {
   for (const EmittedLaw& law : all_laws())
     for (const compiler::Coefficient& coefficient : law.compilation().law.coefficients)
       for (const double value : coefficient.values) {

@@ -19,7 +19,7 @@ void expect_equal(const Command& one, const Command& other, const EmittedLaw& la
 }
 
 // Fails if step() is not output() and then update(): in commands, in stored energy, or when one follows the other.
-TEST(TwoPhases, make_a_step) {
+TEST(TwoPhases, MakeAStep) {
   for (const EmittedLaw& law : all_laws()) {
     const std::shared_ptr<Model> stepped = law.make(), parted = law.make(), mixed = law.make();
     bool is_parted = false;
@@ -39,7 +39,7 @@ TEST(TwoPhases, make_a_step) {
 }
 
 // Fails if update() without a sample, before the first one or twice after one, moves any state.
-TEST(TwoPhases, update_does_nothing_without_a_sample) {
+TEST(TwoPhases, UpdateDoesNothingWithoutASample) {
   for (const EmittedLaw& law : all_laws()) {
     const std::shared_ptr<Model> model = law.make();
     model->reset(rest);
@@ -54,7 +54,7 @@ TEST(TwoPhases, update_does_nothing_without_a_sample) {
 }
 
 // Fails if output() itself moves the law on: asked twice, it answers twice the same, and the last sample counts.
-TEST(TwoPhases, output_may_be_asked_again) {
+TEST(TwoPhases, OutputMayBeAskedAgain) {
   for (const EmittedLaw& law : all_laws()) {
     const std::shared_ptr<Model> once = law.make(), twice = law.make();
     for (const Sample& sample : some_samples(law)) {
@@ -70,7 +70,7 @@ TEST(TwoPhases, output_may_be_asked_again) {
 }
 
 // Fails if a step, of a number or of none, leaves a sample of an output() before it to the next update().
-TEST(TwoPhases, a_step_drops_the_sample_that_waits) {
+TEST(TwoPhases, AStepDropsTheSampleThatWaits) {
   for (const EmittedLaw& law : all_laws())
     for (const double position : {0.001, std::numeric_limits<double>::quiet_NaN()}) {
       const std::shared_ptr<Model> plain = law.make(), mixed = law.make();

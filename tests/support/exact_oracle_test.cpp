@@ -27,7 +27,7 @@ compiler::Element damper(double damping, compiler::NodeIndex a, compiler::NodeIn
 }
 
 // Fails if a Maxwell element is not K jωB/(K + jωB).
-TEST(ExactOracle, knows_the_maxwell_element) {
+TEST(ExactOracle, KnowsTheMaxwellElement) {
   const auto maxwell = network(3, {spring(3, tool, 2), damper(5, 2, ground)});
   const ExactComplex d = dynamic_stiffness_by_elimination(maxwell, Exact(2));
   EXPECT_LT(abs(d.real - Exact(300) / 109), rounding);
@@ -35,7 +35,7 @@ TEST(ExactOracle, knows_the_maxwell_element) {
 }
 
 // Fails if a bridge in balance is not that of its two branches, or if its cross arm counts.
-TEST(ExactOracle, knows_the_balanced_bridge) {
+TEST(ExactOracle, KnowsTheBalancedBridge) {
   const auto bridge = network(
       4, {spring(2, tool, 2), spring(4, tool, 3), spring(6, 2, ground), spring(12, 3, ground), damper(7, 2, 3)});
   const ExactComplex d = dynamic_stiffness_by_elimination(bridge, Exact(10));
@@ -44,7 +44,7 @@ TEST(ExactOracle, knows_the_balanced_bridge) {
 }
 
 // Fails if elements that carry no force change the answer.
-TEST(ExactOracle, leaves_out_what_has_no_effect) {
+TEST(ExactOracle, LeavesOutWhatHasNoEffect) {
   auto loose = network(3, {spring(2, tool, ground), damper(7, tool, 2)});
   loose.elements[1].has_effect = false;
   const ExactComplex d = dynamic_stiffness_by_elimination(loose, Exact(10));

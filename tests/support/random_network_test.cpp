@@ -14,7 +14,7 @@ using namespace dashpot::testing;
 namespace compiler = dashpot::compiler;
 
 // Fails if a network that a test prints is not the one that it tried.
-TEST(RandomNetwork, reads_back_as_it_was) {
+TEST(RandomNetwork, ReadsBackAsItWas) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     NetworkRecipe recipe;
     recipe.topology = seed % 2 == 0 ? Topology::tree : Topology::graph;
@@ -30,7 +30,7 @@ TEST(RandomNetwork, reads_back_as_it_was) {
 }
 
 // Fails if trees stop being trees, or if graphs are trees all the time.
-TEST(RandomNetwork, has_the_topology_asked_for) {
+TEST(RandomNetwork, HasTheTopologyAskedFor) {
   std::size_t bridges = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     ASSERT_TRUE(compiler::series_parallel_tree(random_network(seed, {}))) << seed;
@@ -42,7 +42,7 @@ TEST(RandomNetwork, has_the_topology_asked_for) {
 }
 
 // Fails if values stay in a narrow band, where no test would meet stiff networks.
-TEST(RandomNetwork, spreads_its_values) {
+TEST(RandomNetwork, SpreadsItsValues) {
   double smallest = 1, largest = 1;
   for (std::uint64_t seed = 0; seed < 50; ++seed)
     for (const compiler::Element& element : random_network(seed, {}).elements) {
@@ -54,7 +54,7 @@ TEST(RandomNetwork, spreads_its_values) {
 }
 
 // Fails if most seeds that ask for slips get none.
-TEST(RandomNetwork, has_slips_where_asked) {
+TEST(RandomNetwork, HasSlipsWhereAsked) {
   NetworkRecipe recipe;
   recipe.most_nodes = 8;
   recipe.most_slips = 4;

@@ -23,7 +23,7 @@ std::string dislikes_soft_damped_springs(const compiler::Network& network) {
 }
 
 // Fails if a failure is reported with elements that have no part in it, or with values that nobody can read.
-TEST(Shrink, finds_the_smallest_network) {
+TEST(Shrink, FindsTheSmallestNetwork) {
   const compiler::Network large = random_network(4);
   ASSERT_GT(large.elements.size(), 10u);
   ASSERT_NE(dislikes_soft_damped_springs(large), "");
@@ -38,7 +38,7 @@ TEST(Shrink, finds_the_smallest_network) {
 }
 
 // Fails if a failure does not say how to repeat it.
-TEST(Shrink, says_seed_network_and_complaint) {
+TEST(Shrink, SaysSeedNetworkAndComplaint) {
   const std::string report = first_failure(0, 50, {}, dislikes_soft_damped_springs);
   EXPECT_EQ(report.rfind("seed ", 0), 0u) << report;
   EXPECT_NE(report.find("\"spring\""), std::string::npos) << report;
@@ -46,7 +46,7 @@ TEST(Shrink, says_seed_network_and_complaint) {
 }
 
 // Fails if a property that always holds is reported as broken.
-TEST(Shrink, is_silent_where_nothing_fails) {
+TEST(Shrink, IsSilentWhereNothingFails) {
   EXPECT_EQ(first_failure(0, 50, {}, [](const compiler::Network&) { return ""; }), "");
 }
 

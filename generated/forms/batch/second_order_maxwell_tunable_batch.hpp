@@ -109,7 +109,7 @@ class second_order_maxwell_tunable_batch {
 
   // Of one point, right after step(), the commands then being those of output() with the same samples: so
   // the force from before is held no longer, and the change injects no energy. Bit i of the result:
-  // parameter i was beyond its range and is at its bound now, or it was no number and is as it was.
+  // parameter i was beyond its range and is at its bound now, or it was NaN and is as it was.
   unsigned set(long long point, const parameters& wanted) noexcept {
     scalar* const state = state_of(point);
     scalar held_force_ = state[0 * block];

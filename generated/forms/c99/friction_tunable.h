@@ -130,7 +130,7 @@ typedef struct friction_tunable_range_of_parameter {
   double max;
 } friction_tunable_range_of_parameter;
 
-// `value` becomes what is wanted of it, within its range; what is no number at all leaves it as it is. Returns 1 where
+// `value` becomes what is wanted of it, within its range; a NaN leaves it as it is. Returns 1 where
 // that is not what was wanted, else 0.
 static inline unsigned friction_tunable_take_value(const friction_tunable_range_of_parameter *range, double wanted, double *value) {
   if (wanted == wanted) *value = (wanted < range->min) ? range->min : ((wanted > range->max) ? range->max : wanted);
@@ -323,7 +323,7 @@ static inline double friction_tunable_parameter(const friction_tunable *self, in
 
 // Parameters in turn. Call it right after the step of a sample, and take the command from the output of that sample
 // without another update: so the force from before is held no longer, and the change injects no energy. Bit i of the
-// result: parameter i was beyond its range and is at its bound now, or it was no number and is as it was. What waits
+// result: parameter i was beyond its range and is at its bound now, or it was NaN and is as it was. What waits
 // for an update belongs to the parameters before.
 static inline unsigned friction_tunable_set_values(friction_tunable *self, const double *wanted) {
   friction_tunable_update(self);

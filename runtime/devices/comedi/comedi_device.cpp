@@ -251,7 +251,7 @@ device_status comedi_device::write(const actuation& command) noexcept {
   if (card_ == nullptr) return device_status::disconnected;
   errno = 0;
   if (!std::isfinite(command.motor_torque) || !std::isfinite(command.brake_damping))
-    return refused("the command is no number");
+    return refused("the command is NaN or infinite");
   const actuation last = safe();
   const bool ends = command.motor_torque == last.motor_torque && command.brake_damping == last.brake_damping;
   has_pending_ = description_.loop.delay_samples == 1 && !ends;

@@ -10,7 +10,7 @@ struct tunable_range {
   Scalar max;
 };
 
-// `value` becomes what is wanted of it, within its range; what is no number at all leaves it as it is. Returns 1 where
+// `value` becomes what is wanted of it, within its range; a NaN leaves it as it is. Returns 1 where
 // that is not what was wanted, else 0.
 template <class Scalar>
 constexpr unsigned take_value(const tunable_range<Scalar>& range, Scalar wanted, Scalar& value) noexcept {

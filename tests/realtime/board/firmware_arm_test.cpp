@@ -27,14 +27,14 @@ model_runner<law> runner_of_arm() {
 
 // Two encoders, estimators and motors, the kinematics and both brakes, in single precision: one bit of difference
 // anywhere, in any step of a closed loop, would show.
-TEST(ArmFirmware, runs_a_law_of_two_axes_bit_for_bit_like_the_host) {
+TEST(ArmFirmware, RunsALawOfTwoAxesBitForBitLikeTheHost) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   qemu_board board({}, ARM_BOARD_FIRMWARE);
   expect_the_same_bits<law, test_arm>(board.connect(), own_model, runner_of_arm(), 1000);
 }
 
 // What the firmware's README says that it costs, and a sixth more.
-TEST(ArmFirmware, one_step_stays_within_its_budget_of_instructions) {
+TEST(ArmFirmware, OneStepStaysWithinItsBudgetOfInstructions) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   qemu_board board({"-icount", "shift=0"}, ARM_BOARD_FIRMWARE);
   conversation talk(board.connect());
@@ -49,7 +49,7 @@ TEST(ArmFirmware, one_step_stays_within_its_budget_of_instructions) {
 }
 
 // The host computes: what it sends to each motor and brake is in force on the board, and each joint's counts come back.
-TEST(ArmFirmware, obeys_a_host_joint_by_joint) {
+TEST(ArmFirmware, ObeysAHostJointByJoint) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   qemu_board emulated({}, ARM_BOARD_FIRMWARE);
   board_options patient;

@@ -74,7 +74,7 @@ class wired_session {
 
 // The firmware and the host are two programs with clocks of their own: what the unit tests prove in lockstep must hold
 // when nothing waits for anything. Host and board must count exactly what the wire did, and the session must go on.
-TEST(Firmware, survives_and_counts_a_bad_wire) {
+TEST(Firmware, SurvivesAndCountsABadWire) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   wired_session with;
   std::string error;

@@ -41,7 +41,7 @@ class paced_clock {
 // The whole way from Device interface to emulated UART and back, at the rate of a real loop: on a sound line nothing
 // may be damaged or misread, and nothing missing but what a side could not send and says so, however late they are
 // scheduled.
-TEST(Firmware, answers_every_command_of_a_paced_loop) {
+TEST(Firmware, AnswersEveryCommandOfAPacedLoop) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   const auto switched_on = std::chrono::steady_clock::now();
   qemu_board emulated;
@@ -93,7 +93,7 @@ TEST(Firmware, answers_every_command_of_a_paced_loop) {
 }
 
 // The board's own watchdog, timed by its own clock, with nobody there to help.
-TEST(Firmware, stops_the_motor_when_the_host_falls_silent) {
+TEST(Firmware, StopsTheMotorWhenTheHostFallsSilent) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   qemu_board emulated;
   board_options options = patient(sampling::free_running);

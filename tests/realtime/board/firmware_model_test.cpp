@@ -19,7 +19,7 @@ constexpr configure_message own_model = {model_runner<model>::period, 4, 0, 0, s
 
 // Processor, compiler, encoder, plant, estimator and model in single precision: one bit of difference anywhere, in any
 // of 4,000 steps in a closed loop, would show; what is certified on the host would not be what runs on the board.
-TEST(Firmware, runs_the_model_bit_for_bit_like_the_host) {
+TEST(Firmware, RunsTheModelBitForBitLikeTheHost) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   qemu_board board;
   expect_the_same_bits<model, test_plant>(board.connect(), own_model, {test_plant::encoder_step, {}, 1}, 4000);
@@ -27,7 +27,7 @@ TEST(Firmware, runs_the_model_bit_for_bit_like_the_host) {
 
 // The cost on the target is what decides at which rate a board can run a network: 60 instructions are the budget for
 // the network of Fig. 5.
-TEST(Firmware, one_step_stays_within_its_budget_of_instructions) {
+TEST(Firmware, OneStepStaysWithinItsBudgetOfInstructions) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   qemu_board board({"-icount", "shift=0"});
   conversation talk(board.connect());

@@ -107,7 +107,7 @@ class servo_session {
 
 // On a bad wire the loop must go on with the samples that are sound: one that it should not have used would end in a
 // fault, and so would a session that a damaged frame could derail.
-TEST(Firmware, serves_the_servo_loop_over_a_bad_wire) {
+TEST(Firmware, ServesTheServoLoopOverABadWire) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   servo_session with(5000, 5000);
   std::string error;
@@ -134,7 +134,7 @@ TEST(Firmware, serves_the_servo_loop_over_a_bad_wire) {
 
 // The whole chain of safety: the wire dies, the loop goes safe, the board stops by itself; both stay so when the wire
 // is back, until the user asks for reset and start.
-TEST(Firmware, recovers_the_servo_loop_from_a_dead_wire_on_request_only) {
+TEST(Firmware, RecoversTheServoLoopFromADeadWireOnRequestOnly) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   std::atomic<servo_state> state = servo_state::idle;
   servo_options options = quiet();

@@ -332,7 +332,7 @@ std::map<std::string, std::string> table() {
 
 // Whatever comes over the wire, the loop goes on where that is sound, and ends in the safe command where it is not; and
 // in the end no board makes torque.
-TEST(Misbehaviour, ends_as_the_table_says) {
+TEST(Misbehaviour, EndsAsTheTableSays) {
   const std::map<std::string, std::string> promised = table();
   for (const auto& [name, what] : misbehaviours<test_plant>()) {
     const outcome found = outcome_of(what);
@@ -344,7 +344,7 @@ TEST(Misbehaviour, ends_as_the_table_says) {
 }
 
 // Two axes end as one does, whichever joint it is; only the joint is named too.
-TEST(Misbehaviour, ends_alike_with_two_axes) {
+TEST(Misbehaviour, EndsAlikeWithTwoAxes) {
   for (const auto& [name, what] : misbehaviours<test_arm>()) {
     const outcome found = outcome_of(what), of_one = outcome_of(misbehaviours<test_plant>().at(name));
     EXPECT_EQ(found.summary.state, of_one.summary.state) << name << ": " << found.text;
@@ -357,7 +357,7 @@ TEST(Misbehaviour, ends_alike_with_two_axes) {
 }
 
 // A board that makes less than it is asked for must show in what the run came to.
-TEST(Misbehaviour, of_a_weak_board_is_counted) {
+TEST(Misbehaviour, OfAWeakBoardIsCounted) {
   EXPECT_GT(outcome_of(misbehaviours<test_plant>().at("weak")).summary.motor_clipped, 50U);
   EXPECT_EQ(outcome_of(misbehaviours<test_plant>().at("none")).summary.motor_clipped, 0U);
 }

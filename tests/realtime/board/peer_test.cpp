@@ -62,7 +62,7 @@ struct peer_session {
 };
 
 // Were the page unclear or the code apart from it, the two would not get past this.
-TEST(Peer, understands_the_driver) {
+TEST(Peer, UnderstandsTheDriver) {
   DASHPOT_SKIP_WITHOUT_PYTHON();
   peer_session<> with(sampling::on_command);
   std::string error;
@@ -91,7 +91,7 @@ TEST(Peer, understands_the_driver) {
 }
 
 // The same with two axes: on which nobody but the page says which number is whose.
-TEST(Peer, understands_the_driver_on_two_axes) {
+TEST(Peer, UnderstandsTheDriverOnTwoAxes) {
   DASHPOT_SKIP_WITHOUT_PYTHON();
   peer_session<test_arm> with(sampling::on_command);
   std::string error;
@@ -117,7 +117,7 @@ TEST(Peer, understands_the_driver_on_two_axes) {
 }
 
 // The rules of the page that protect people: limits, watchdog, reset.
-TEST(Peer, keeps_the_safety_rules) {
+TEST(Peer, KeepsTheSafetyRules) {
   DASHPOT_SKIP_WITHOUT_PYTHON();
   peer_session<> with(sampling::free_running, 100);
   std::string error;
@@ -137,7 +137,7 @@ TEST(Peer, keeps_the_safety_rules) {
 }
 
 // A serial line is what most boards hang on.
-TEST(Peer, serves_a_terminal) {
+TEST(Peer, ServesATerminal) {
   DASHPOT_SKIP_WITHOUT_PYTHON();
   child_process peer({PYTHON, PEER, "--pty"});
   std::string error;
@@ -156,7 +156,7 @@ TEST(Peer, serves_a_terminal) {
 }
 
 // A host's configuration that the page forbids must be refused by the peer with the number that the page gives.
-TEST(Peer, refuses_by_the_page) {
+TEST(Peer, RefusesByThePage) {
   DASHPOT_SKIP_WITHOUT_PYTHON();
   std::string error;
   peer_session<> with(sampling::on_command, 0);

@@ -120,14 +120,14 @@ class SystemCalls : public testing::Test {
 };
 
 // Broken, the loop's thread would wait for a lock, a file or memory somewhere in its period.
-TEST_F(SystemCalls, of_the_loop_are_sleep_read_and_send) {
+TEST_F(SystemCalls, OfTheLoopAreSleepReadAndSend) {
   std::set<std::string> allowed = {"clock_nanosleep", "read", "sendto"};
   if (clock_is_a_call()) allowed.insert("clock_gettime");
   EXPECT_EQ(calls_of_a_loop<nothing>(), allowed);
 }
 
 // Broken, the test above would pass because nothing is ever noted.
-TEST_F(SystemCalls, are_noted) { EXPECT_EQ(calls_of_a_loop<ask_the_kernel>().count("getppid"), 1u); }
+TEST_F(SystemCalls, AreNoted) { EXPECT_EQ(calls_of_a_loop<ask_the_kernel>().count("getppid"), 1u); }
 
 }  // namespace
 }  // namespace dashpot::tests

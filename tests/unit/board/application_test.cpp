@@ -58,7 +58,7 @@ constexpr configure_message own_model = {1'000'000, 4, 0, 0, sampling::free_runn
 constexpr configure_message on_command = {1'000'000, 4, 0, 5, sampling::on_command, controller::host};
 
 // The host decides by this answer whether it talks to the device it was compiled for.
-TEST(Application, describes_itself_and_its_model) {
+TEST(Application, DescribesItselfAndItsModel) {
   conversation talk;
   talk.host.say(hello_message());
   talk.board.serve();
@@ -69,7 +69,7 @@ TEST(Application, describes_itself_and_its_model) {
 }
 
 // One command, one sample: anything else would make the host's loop see samples that it did not pace.
-TEST(Application, samples_once_for_each_new_command) {
+TEST(Application, SamplesOnceForEachNewCommand) {
   conversation talk;
   talk.start(on_command);
   talk.host.hear<sample_message>();
@@ -86,7 +86,7 @@ TEST(Application, samples_once_for_each_new_command) {
 }
 
 // Free running, the board's clock paces the samples, and a period slept through must show in the statistics.
-TEST(Application, samples_once_each_period_when_free_running) {
+TEST(Application, SamplesOnceEachPeriodWhenFreeRunning) {
   conversation talk;
   talk.start(own_model);
   talk.host.hear<sample_message>();
@@ -100,7 +100,7 @@ TEST(Application, samples_once_each_period_when_free_running) {
 }
 
 // Periods slept through are silence too: a board that stalls must not keep the motor on for longer.
-TEST(Application, counts_slept_periods_as_silence) {
+TEST(Application, CountsSleptPeriodsAsSilence) {
   conversation talk;
   talk.start(on_command);
   talk.host.say(command_message{1, 2}, 0);
@@ -112,7 +112,7 @@ TEST(Application, counts_slept_periods_as_silence) {
 }
 
 // The emitted model must get the position and the velocity that it was compiled for, and its force must oppose them.
-TEST(Application, runs_the_model_on_counts) {
+TEST(Application, RunsTheModelOnCounts) {
   conversation talk;
   talk.start(own_model);
   talk.host.hear<sample_message>();
@@ -137,7 +137,7 @@ TEST(Application, runs_the_model_on_counts) {
 }
 
 // A translational network at the tool of a rotary joint: K r², B r², torque = F r (theory, section 7).
-TEST(ModelRunner, converts_between_tool_and_joint) {
+TEST(ModelRunner, ConvertsBetweenToolAndJoint) {
   constexpr float radius = 0.05F, step = 1e-4F;
   model_runner<generated::stand_in_model> runner(static_cast<double>(step), {}, radius);
   runner.step({0, 0, 0});
@@ -154,7 +154,7 @@ TEST(ModelRunner, converts_between_tool_and_joint) {
 
 // A model certified with a smooth velocity would be active on a raw one: the board must use the estimator it is told
 // to.
-TEST(ModelRunner, estimates_the_velocity_as_described) {
+TEST(ModelRunner, EstimatesTheVelocityAsDescribed) {
   velocity_description smooth;
   smooth.estimator = estimator_kind::butterworth;
   smooth.cutoff = 120;
@@ -170,7 +170,7 @@ TEST(ModelRunner, estimates_the_velocity_as_described) {
 
 // Of an estimator that times the encoder's edges: a clock that is cut short, or wraps within the run, would make a
 // speed of what is none.
-TEST(ModelRunner, times_edges_by_the_whole_clock_and_over_its_wrap) {
+TEST(ModelRunner, TimesEdgesByTheWholeClockAndOverItsWrap) {
   velocity_description timed;
   timed.estimator = estimator_kind::inverse_time;
   const auto speeds = [&](std::uint64_t begin) {
@@ -201,7 +201,7 @@ static_assert(!is_certified_for<certified_for_a_filter>(estimator_kind::backward
 static_assert(is_certified_for<generated::stand_in_model>(estimator_kind::kalman));
 
 // The counts wrap around after 2³² steps: the velocity must not jump there.
-TEST(ModelRunner, crosses_the_end_of_the_counter) {
+TEST(ModelRunner, CrossesTheEndOfTheCounter) {
   model_runner<generated::stand_in_model> runner(1e-5, {}, 1);
   runner.step({std::numeric_limits<std::int32_t>::max(), 0, 0});
   EXPECT_EQ(runner.step({std::numeric_limits<std::int32_t>::min() + 1, 1'000'000, 0}).speed, 2.0F * 1e-5F * 1000.0F);
@@ -209,7 +209,7 @@ TEST(ModelRunner, crosses_the_end_of_the_counter) {
 
 // At the end of the counter a position from raw counts goes from 21 km to −21 km: the spring would pull with all that
 // the motor has. And single precision, 21 km away, is a step of 2 mm, or of 2 N.
-TEST(ModelRunner, holds_a_spring_over_the_end_of_the_counter) {
+TEST(ModelRunner, HoldsASpringOverTheEndOfTheCounter) {
   constexpr std::int32_t last = std::numeric_limits<std::int32_t>::max();
   model_runner<spring_from_start<float>> runner(1e-5, {}, 1);
   for (std::int64_t moved = 0; moved < 200; ++moved) {
@@ -221,7 +221,7 @@ TEST(ModelRunner, holds_a_spring_over_the_end_of_the_counter) {
 }
 
 // The whole board, from idle through running, with the counter over its end on the way and a fault in between.
-TEST(Application, follows_the_counter_over_its_end_in_every_state) {
+TEST(Application, FollowsTheCounterOverItsEndInEveryState) {
   model_runner<spring_from_start<float>> runner(1e-5, {}, 1);
   runner.watch({std::numeric_limits<std::int32_t>::max() - 1, 0, 0});
   runner.watch({std::numeric_limits<std::int32_t>::min() + 1, 0, 0});  // idle: three counts further
@@ -232,7 +232,7 @@ TEST(Application, follows_the_counter_over_its_end_in_every_state) {
 }
 
 // Near zero the board's own model and a host must mean the same place by the same counts.
-TEST(ModelRunner, has_its_zero_where_the_counter_has_it) {
+TEST(ModelRunner, HasItsZeroWhereTheCounterHasIt) {
   model_runner<generated::stand_in_model> runner(1e-5, {}, 1);
   generated::stand_in_model model;
   model.reset(3e-2F);

@@ -61,7 +61,7 @@ void expect_stopped(const arm_supervisor& board, stop_cause cause) {
 }
 
 // A limit that is another joint's, or a damping for a brake that is not there, would reach the hand.
-TEST(ArmSupervisor, limits_each_motor_and_brake_by_its_own_limit) {
+TEST(ArmSupervisor, LimitsEachMotorAndBrakeByItsOwnLimit) {
   arm_supervisor board = running();
   board.obey(0, {{5, -5}, {1, 1, 1, 1}});
   expect_applied(board, {{0.5F, -0.25F}, {0.05F, 0.04F, 0, 0}});
@@ -70,7 +70,7 @@ TEST(ArmSupervisor, limits_each_motor_and_brake_by_its_own_limit) {
 }
 
 // One number that is none makes the whole command one: half of it would push a tip sideways.
-TEST(ArmSupervisor, stops_all_of_it_at_one_bad_number) {
+TEST(ArmSupervisor, StopsAllOfItAtOneBadNumber) {
   for (unsigned bad = 0; bad < arm_axes + most_arm_brakes; ++bad) {
     arm_command_message command = {{0.1F, 0.1F}, {0.01F, 0.01F}};
     arm_outputs of_model = {{0.1F, 0.1F}, {0.01F, 0.01F}};
@@ -87,7 +87,7 @@ TEST(ArmSupervisor, stops_all_of_it_at_one_bad_number) {
 }
 
 // Each joint has a limit of its own, and any of them stops the board.
-TEST(ArmSupervisor, watches_the_speed_of_every_joint) {
+TEST(ArmSupervisor, WatchesTheSpeedOfEveryJoint) {
   for (unsigned j = 0; j < arm_axes; ++j) {
     const float limit = wish().max_speed[j];
     for (const float speed : {limit, 1.01F * limit, -1.01F * limit, nan}) {
@@ -111,7 +111,7 @@ TEST(ArmSupervisor, watches_the_speed_of_every_joint) {
   }
 }
 
-TEST(ArmSupervisor, refuses_what_a_brake_or_joint_cannot_do) {
+TEST(ArmSupervisor, RefusesWhatABrakeOrJointCannotDo) {
   const auto verdict_on = [](auto change) {
     arm_configure_message changed = wish();
     change(changed);
@@ -133,7 +133,7 @@ using arm_session = stepped_session<no_model, test_arm>;
 arm_actuation told() { return {{0.125, -0.25}, {0.015625, 0.03125}}; }
 
 // Joints or brakes that change places on the way would turn every force.
-TEST(ArmBoardDevice, carries_every_joint_and_brake_to_its_own) {
+TEST(ArmBoardDevice, CarriesEveryJointAndBrakeToItsOwn) {
   arm_session with(described_arm_board());
   std::string error;
   ASSERT_TRUE(with.start(error)) << error;
@@ -162,7 +162,7 @@ TEST(ArmBoardDevice, carries_every_joint_and_brake_to_its_own) {
 }
 
 // The counter of either joint turns over by itself.
-TEST(ArmBoardDevice, unwraps_each_counter) {
+TEST(ArmBoardDevice, UnwrapsEachCounter) {
   board_age aged;
   aged.counts = std::numeric_limits<std::int32_t>::max() - 24384 - 300;  // the first joint's is about to turn over
   arm_session with(described_arm_board(), {}, facts_of_arm_board(), aged);
@@ -184,7 +184,7 @@ TEST(ArmBoardDevice, unwraps_each_counter) {
 }
 
 // A number that is none, of any motor or brake, must bring all of them to rest.
-TEST(ArmBoardDevice, sends_the_safe_command_in_place_of_a_bad_one) {
+TEST(ArmBoardDevice, SendsTheSafeCommandInPlaceOfABadOne) {
   for (unsigned bad = 0; bad < arm_axes + most_arm_brakes; ++bad) {
     arm_session with(described_arm_board());
     std::string error;
@@ -212,7 +212,7 @@ std::string outcome(const Described& described, const basic_board_facts<Plant::a
 }
 
 // Without a word a host would wait for an answer that never comes, or drive half of an arm.
-TEST(ArmBoardStart, names_the_axes_that_differ) {
+TEST(ArmBoardStart, NamesTheAxesThatDiffer) {
   EXPECT_EQ(outcome<test_plant>(described_arm_board(), facts_of_board()),
             "the board has one axis, the device file two");
   EXPECT_EQ(outcome<test_arm>(described_board(), facts_of_arm_board()), "the board has two axes, the device file one");
@@ -220,7 +220,7 @@ TEST(ArmBoardStart, names_the_axes_that_differ) {
 }
 
 // A host of one axis that skips the question, or a replay: the board stays as it is.
-TEST(ArmBoardStart, is_deaf_to_what_is_for_one_axis) {
+TEST(ArmBoardStart, IsDeafToWhatIsForOneAxis) {
   arm_session with(described_arm_board());
   std::string error;
   ASSERT_TRUE(with.start(error)) << error;
@@ -249,7 +249,7 @@ std::string with_facts(Change change) {
 }
 
 // Which joint, or which brake, is what somebody with a screwdriver has to know.
-TEST(ArmBoardStart, names_the_joint_or_brake_that_differs) {
+TEST(ArmBoardStart, NamesTheJointOrBrakeThatDiffers) {
   EXPECT_EQ(with_facts([](auto& f) { f.encoder_step[1] = 2e-4; }),
             "encoder step of joint 2 of the board is 0.0002 rad, the device file says 9.58738e-05 rad");
   EXPECT_EQ(with_facts([](auto& f) { f.max_torque[0] = 0.25F; }),
@@ -263,7 +263,7 @@ TEST(ArmBoardStart, names_the_joint_or_brake_that_differs) {
 }
 
 // The law on the board must get each joint's position and velocity, and its torques must oppose them.
-TEST(ArmApplication, runs_a_law_of_two_axes_on_counts) {
+TEST(ArmApplication, RunsALawOfTwoAxesOnCounts) {
   board_options alone;
   alone.sampling = sampling::free_running;
   alone.controller = controller::own_model;
@@ -306,7 +306,7 @@ arm_description patient_arm() {
 }
 
 // Loop, driver and board of two axes from end to end, with what a motor clips, and the watchdog for an end.
-TEST(ArmBoardDevice, serves_the_servo_loop) {
+TEST(ArmBoardDevice, ServesTheServoLoop) {
   arm_session device(patient_arm());
   std::string error;
   ASSERT_TRUE(device.start(error)) << error;
@@ -333,7 +333,7 @@ TEST(ArmBoardDevice, serves_the_servo_loop) {
 }
 
 // The board that falls short on one joint only, and the one that nobody feeds, must both be told by the loop.
-TEST(ArmBoardDevice, tells_the_loop_what_is_clipped_and_why_it_stopped) {
+TEST(ArmBoardDevice, TellsTheLoopWhatIsClippedAndWhyItStopped) {
   const auto run = [](sampling when, const std::function<void(arm_session&)>& prepare) {
     board_options options_of_board;
     options_of_board.sampling = when;

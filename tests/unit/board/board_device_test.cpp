@@ -56,7 +56,7 @@ class session {
 };
 
 // A board that falls silent would be waited for as long as the host runs, or given up at once.
-TEST(MonotonicNanoseconds, are_those_of_the_steady_clock) {
+TEST(MonotonicNanoseconds, AreThoseOfTheSteadyClock) {
   const auto steady = [] {
     return std::uint64_t(
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
@@ -68,7 +68,7 @@ TEST(MonotonicNanoseconds, are_those_of_the_steady_clock) {
 }
 
 // Where both clocks pace, the numbers that the loop gets must be the board's.
-TEST(BoardDevice, hands_out_what_the_board_measured) {
+TEST(BoardDevice, HandsOutWhatTheBoardMeasured) {
   session with;
   std::uint32_t sequence = with.sample.sequence;
   for (int i = 0; i < 600; ++i) {
@@ -85,7 +85,7 @@ TEST(BoardDevice, hands_out_what_the_board_measured) {
 }
 
 // The command must reach motor and brake unchanged in sign and unit, in the same period.
-TEST(BoardDevice, delivers_commands) {
+TEST(BoardDevice, DeliversCommands) {
   session with;
   with.exchange({-3.25, 7.5});
   EXPECT_EQ(with.board.hardware().driven().motor_torque, -3.25F);
@@ -95,7 +95,7 @@ TEST(BoardDevice, delivers_commands) {
 }
 
 // A number that is none must stop the motor at once, and the loop must hear of it.
-TEST(BoardDevice, sends_the_safe_command_in_place_of_a_bad_one) {
+TEST(BoardDevice, SendsTheSafeCommandInPlaceOfABadOne) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
     session with;
     with.exchange({2, 3});
@@ -107,7 +107,7 @@ TEST(BoardDevice, sends_the_safe_command_in_place_of_a_bad_one) {
 }
 
 // The servo loop tells a pause from an outage by these two.
-TEST(BoardDevice, calls_a_pause_no_data_and_an_outage_stale) {
+TEST(BoardDevice, CallsAPauseNoDataAndAnOutageStale) {
   session with;
   for (int i = 0; i < 3; ++i) EXPECT_EQ(with.device.read(with.sample), device_status::no_data);
   EXPECT_EQ(with.device.read(with.sample), device_status::stale);
@@ -116,7 +116,7 @@ TEST(BoardDevice, calls_a_pause_no_data_and_an_outage_stale) {
 }
 
 // Only the newest of several waiting samples is worth computing with.
-TEST(BoardDevice, hands_out_the_newest) {
+TEST(BoardDevice, HandsOutTheNewest) {
   session with(sampling::free_running);
   for (int i = 0; i < 20; ++i) with.board.pass_period();
   const std::uint32_t before = with.sample.sequence;
@@ -127,7 +127,7 @@ TEST(BoardDevice, hands_out_the_newest) {
 }
 
 // A stream that has fallen behind delivers one sample a period like a healthy one: only its age gives it away.
-TEST(BoardDevice, calls_a_delayed_stream_stale) {
+TEST(BoardDevice, CallsADelayedStreamStale) {
   session with(sampling::free_running);
   const auto pass = [&](std::uint64_t host_periods) {
     with.board.pass_period();
@@ -143,7 +143,7 @@ TEST(BoardDevice, calls_a_delayed_stream_stale) {
 }
 
 // Damage must be told from silence: it points at the cable.
-TEST(BoardDevice, reports_damage) {
+TEST(BoardDevice, ReportsDamage) {
   stream_pair ends = connected_pair();
   transport intruder(::dup(ends.far.descriptor()), transport::kind::stream_socket);
   session with(sampling::on_command, std::move(ends));
@@ -158,7 +158,7 @@ TEST(BoardDevice, reports_damage) {
 }
 
 // A sample that comes again must not be computed with as if the handle had stopped.
-TEST(BoardDevice, calls_a_repeated_sample_stale) {
+TEST(BoardDevice, CallsARepeatedSampleStale) {
   stream_pair ends = connected_pair();
   transport intruder(::dup(ends.far.descriptor()), transport::kind::stream_socket);
   session with(sampling::on_command, std::move(ends));
@@ -170,7 +170,7 @@ TEST(BoardDevice, calls_a_repeated_sample_stale) {
 }
 
 // The counter of 32 bits turns over; the position must go on.
-TEST(BoardDevice, unwraps_the_counter) {
+TEST(BoardDevice, UnwrapsTheCounter) {
   stream_pair ends = connected_pair();
   transport intruder(::dup(ends.far.descriptor()), transport::kind::stream_socket);
   session with(sampling::on_command, std::move(ends));
@@ -189,7 +189,7 @@ TEST(BoardDevice, unwraps_the_counter) {
 }
 
 // Watchdog, report and recovery from end to end: the loop must see the stop and end it only by asking.
-TEST(BoardDevice, reports_the_watchdog_and_recovers_on_reset) {
+TEST(BoardDevice, ReportsTheWatchdogAndRecoversOnReset) {
   session with;
   with.exchange({2, 3});
   for (int i = 0; i < 5; ++i) with.board.pass_period();
@@ -204,7 +204,7 @@ TEST(BoardDevice, reports_the_watchdog_and_recovers_on_reset) {
 }
 
 // A pulled cable must be an answer of its own, for reading and writing, and for good.
-TEST(BoardDevice, reports_a_closed_stream) {
+TEST(BoardDevice, ReportsAClosedStream) {
   stream_pair ends = connected_pair();
   board_device device(std::move(ends.near), described_board());
   {
@@ -222,7 +222,7 @@ TEST(BoardDevice, reports_a_closed_stream) {
 }
 
 // Before start() nothing must reach the board.
-TEST(BoardDevice, is_disconnected_before_start) {
+TEST(BoardDevice, IsDisconnectedBeforeStart) {
   stream_pair ends = connected_pair();
   board_device device(std::move(ends.near), described_board());
   device_sample sample;
@@ -233,7 +233,7 @@ TEST(BoardDevice, is_disconnected_before_start) {
 }
 
 // A board that does not listen must neither block the loop nor get a backlog of old commands later.
-TEST(BoardDevice, drops_commands_that_a_full_stream_does_not_take) {
+TEST(BoardDevice, DropsCommandsThatAFullStreamDoesNotTake) {
   session with;
   unsigned left = 0;
   while (with.device.write({1, 1}) == device_status::ok) ++left;
@@ -248,7 +248,7 @@ TEST(BoardDevice, drops_commands_that_a_full_stream_does_not_take) {
 }
 
 // The whole driver over a terminal: a byte that the line discipline ate would show here.
-TEST(BoardDevice, works_over_a_pseudo_terminal) {
+TEST(BoardDevice, WorksOverAPseudoTerminal) {
   std::string error;
   auto near = open_transport("pty:", error);
   ASSERT_TRUE(near) << error;
@@ -269,7 +269,7 @@ TEST(BoardDevice, works_over_a_pseudo_terminal) {
 }
 
 // The counts of the board itself are half of what a user needs to find a bad cable.
-TEST(BoardDevice, fetches_the_counts_of_the_board) {
+TEST(BoardDevice, FetchesTheCountsOfTheBoard) {
   session with;
   for (int i = 0; i < 10; ++i) with.exchange();
   EXPECT_FALSE(with.device.counts_of_board());
@@ -282,7 +282,7 @@ TEST(BoardDevice, fetches_the_counts_of_the_board) {
 
 // By the time that a loop runs, the sample that answered the reset is some milliseconds old: a handle that moves would
 // seem to jump from there.
-TEST(BoardDevice, hands_out_nothing_from_before_the_end_of_its_start) {
+TEST(BoardDevice, HandsOutNothingFromBeforeTheEndOfItsStart) {
   for (const sampling when : {sampling::on_command, sampling::free_running}) {
     stream_pair ends = connected_pair();
     in_process_board<> board(std::move(ends.far));
@@ -302,7 +302,7 @@ TEST(BoardDevice, hands_out_nothing_from_before_the_end_of_its_start) {
 
 // A board that has run freely since its start has filled the stream with what nobody wants: read first as if it were
 // new, that would be a handle in the past.
-TEST(BoardDevice, drops_what_gathered_between_start_and_the_first_read) {
+TEST(BoardDevice, DropsWhatGatheredBetweenStartAndTheFirstRead) {
   stream_pair ends = connected_pair();
   in_process_board<> board(std::move(ends.far));
   board_device device(std::move(ends.near), described_board(), by_hand(sampling::free_running));
@@ -317,7 +317,7 @@ TEST(BoardDevice, drops_what_gathered_between_start_and_the_first_read) {
 }
 
 // The loop confirms, counts and reckons with what the board says that it applies: of which command must be right.
-TEST(BoardDevice, tells_what_the_board_applies) {
+TEST(BoardDevice, TellsWhatTheBoardApplies) {
   session with;
   EXPECT_FALSE(with.sample.report.told) << "no command yet";
   with.exchange({1, 2});
@@ -336,7 +336,7 @@ TEST(BoardDevice, tells_what_the_board_applies) {
 }
 
 // "The device answers 'fault'" sends nobody to the right place.
-TEST(BoardDevice, says_why_the_board_stopped) {
+TEST(BoardDevice, SaysWhyTheBoardStopped) {
   session with;
   with.exchange({2, 3});
   for (int i = 0; i < 5; ++i) with.board.pass_period();
@@ -345,7 +345,7 @@ TEST(BoardDevice, says_why_the_board_stopped) {
 }
 
 // A damaged frame whose check sum fits has a number like any other: every later sample would seem old.
-TEST(BoardDevice, survives_one_wild_sequence_number) {
+TEST(BoardDevice, SurvivesOneWildSequenceNumber) {
   stream_pair ends = connected_pair();
   transport intruder(::dup(ends.far.descriptor()), transport::kind::stream_socket);
   session with(sampling::on_command, std::move(ends));
@@ -357,7 +357,7 @@ TEST(BoardDevice, survives_one_wild_sequence_number) {
 }
 
 // A board that was switched off and on counts from 0 again: the loop must learn that it stopped, not that it is silent.
-TEST(BoardDevice, sees_that_a_board_began_anew) {
+TEST(BoardDevice, SeesThatABoardBeganAnew) {
   stream_pair ends = connected_pair();
   transport again(::dup(ends.far.descriptor()), transport::kind::stream_socket);
   auto before = std::make_unique<session>(sampling::on_command, std::move(ends));

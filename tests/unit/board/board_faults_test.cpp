@@ -114,11 +114,11 @@ void expect_faults_to_be_survived(float step) {
   }
 }
 
-TEST(BoardFaults, are_survived_and_counted) { expect_faults_to_be_survived<test_plant>(0.01F); }
-TEST(BoardFaults, are_survived_and_counted_on_two_axes) { expect_faults_to_be_survived<test_arm>(0.0001F); }
+TEST(BoardFaults, AreSurvivedAndCounted) { expect_faults_to_be_survived<test_plant>(0.01F); }
+TEST(BoardFaults, AreSurvivedAndCountedOnTwoAxes) { expect_faults_to_be_survived<test_arm>(0.0001F); }
 
 // A wire dead towards the board must end with the motor off, and that only when the host asks for it.
-TEST(BoardFaults, silence_of_the_host_stops_the_motor) {
+TEST(BoardFaults, SilenceOfTheHostStopsTheMotor) {
   harmed_session<> with(1);
   with.exchange(2);
   with.wire.down().cut(true);
@@ -135,7 +135,7 @@ TEST(BoardFaults, silence_of_the_host_stops_the_motor) {
 }
 
 // A wire dead towards the host must be told apart from a handle at rest.
-TEST(BoardFaults, silence_of_the_board_is_stale) {
+TEST(BoardFaults, SilenceOfTheBoardIsStale) {
   harmed_session<> with(1);
   with.exchange(2);
   with.wire.up().cut(true);

@@ -36,7 +36,7 @@ std::string with_description(Change change) {
 }
 
 // After start() the board must run with what the device file states, and hand out its first sample.
-TEST(BoardStart, configures_and_runs) {
+TEST(BoardStart, ConfiguresAndRuns) {
   stream_pair ends = connected_pair();
   in_process_board<> board(std::move(ends.far));
   board_device device(std::move(ends.near), described_board());
@@ -55,7 +55,7 @@ TEST(BoardStart, configures_and_runs) {
 }
 
 // A device file of another device would make every force and every certificate wrong by a factor.
-TEST(BoardStart, refuses_another_device) {
+TEST(BoardStart, RefusesAnotherDevice) {
   EXPECT_EQ(with_description([](auto&) {}), "started");
   EXPECT_EQ(with_description([](auto& d) { d.encoder.step = 2e-5; }),
             "encoder step of the board is 1e-05 m, the device file says 2e-05 m");
@@ -69,14 +69,14 @@ TEST(BoardStart, refuses_another_device) {
 
 // A board that can do more than the file asks for is the described one; so is one whose step was multiplied in another
 // order.
-TEST(BoardStart, accepts_a_stronger_board) {
+TEST(BoardStart, AcceptsAStrongerBoard) {
   EXPECT_EQ(with_description([](auto& d) { d.motor.max_torque = 1; }), "started");
   EXPECT_EQ(with_description([](auto& d) { d.brake.max_damping = 10; }), "started");
   EXPECT_EQ(with_description([](auto& d) { d.encoder.step = 0.01 / 1000 * (1 + 1e-15); }), "started");
 }
 
 // The user must learn why the board does not start, not that it does not.
-TEST(BoardStart, passes_on_why_the_board_refuses) {
+TEST(BoardStart, PassesOnWhyTheBoardRefuses) {
   device_description fast = described_board();
   fast.loop.sample_period = 5e-5;
   EXPECT_EQ(outcome(fast, facts_of_board()),
@@ -97,7 +97,7 @@ TEST(BoardStart, passes_on_why_the_board_refuses) {
 }
 
 // What an unlucky start says: with nobody there, at the wrong rate, with a newer board, with the cable pulled.
-TEST(BoardStart, explains_silence) {
+TEST(BoardStart, ExplainsSilence) {
   board_options brief;
   brief.start_time = 60;
   const auto outcome_of = [&](auto&& act) {
@@ -129,7 +129,7 @@ TEST(BoardStart, explains_silence) {
 }
 
 // The first frames after plugging in are often damaged: questions must be repeated, not asked once.
-TEST(BoardStart, repeats_what_is_not_answered) {
+TEST(BoardStart, RepeatsWhatIsNotAnswered) {
   stream_pair ends = connected_pair();
   in_process_board<> board(std::move(ends.far));
   board_device device(std::move(ends.near), described_board());
@@ -143,7 +143,7 @@ TEST(BoardStart, repeats_what_is_not_answered) {
 }
 
 // A second start on the same stream is how a session recovers after the board was switched off and on.
-TEST(BoardStart, starts_again_with_a_board_that_forgot_everything) {
+TEST(BoardStart, StartsAgainWithABoardThatForgotEverything) {
   stream_pair ends = connected_pair();
   auto before =
       std::make_unique<in_process_board<>>(transport(::dup(ends.far.descriptor()), transport::kind::stream_socket));
@@ -171,7 +171,7 @@ TEST(BoardStart, starts_again_with_a_board_that_forgot_everything) {
 }
 
 // 0 in a device file means any effort, 0 on a board means none: a weaker board would clip what was certified unlimited.
-TEST(BoardStart, does_not_take_a_limit_for_none) {
+TEST(BoardStart, DoesNotTakeALimitForNone) {
   const auto unlimited = [](auto& d) { d.motor.max_torque = 0; };
   EXPECT_EQ(with_description(unlimited),
             "largest motor effort of the board is 50 N, the device file states no 'max_torque', which means any");
@@ -186,7 +186,7 @@ TEST(BoardStart, does_not_take_a_limit_for_none) {
 }
 
 // Every comparison with NaN is false, so that a board which states it would be as strong as anybody asks.
-TEST(BoardStart, refuses_a_board_that_states_no_numbers) {
+TEST(BoardStart, RefusesABoardThatStatesNoNumbers) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   board_facts facts = facts_of_board();
   facts.description.max_torque = nan;
@@ -200,7 +200,7 @@ TEST(BoardStart, refuses_a_board_that_states_no_numbers) {
 }
 
 // The watchdog must outlast what the loop itself tolerates, and not by more than the loop needs.
-TEST(BoardStart, derives_the_watchdog_from_what_may_be_missed) {
+TEST(BoardStart, DerivesTheWatchdogFromWhatMayBeMissed) {
   for (const auto& [allowed, expected] : {std::pair(0U, 2), {20U, 42}, {1'000'000U, 65535}}) {
     stream_pair ends = connected_pair();
     in_process_board<> board(std::move(ends.far));
@@ -234,7 +234,7 @@ class slow_way {
 
 // A link of 30 ms each way answers after the question has been repeated, and a board that needs 60 ms to configure
 // itself does so twice then: the number of stops that the reset must quote grows meanwhile.
-TEST(BoardStart, waits_for_slow_boards_and_slow_links) {
+TEST(BoardStart, WaitsForSlowBoardsAndSlowLinks) {
   using std::chrono::milliseconds;
   for (const auto& [link, work] : {std::pair(milliseconds(30), milliseconds(0)),
                                    {milliseconds(0), milliseconds(60)},

@@ -8,7 +8,7 @@ namespace dashpot::board {
 namespace {
 
 // A byte lost, doubled or overtaken between interrupt and main loop would damage frames at random.
-TEST(ByteRing, keeps_order_between_two_threads) {
+TEST(ByteRing, KeepsOrderBetweenTwoThreads) {
   byte_ring<64> ring;
   constexpr unsigned count = 200'000;
   std::thread producer([&] {
@@ -32,7 +32,7 @@ TEST(ByteRing, keeps_order_between_two_threads) {
 }
 
 // A full ring must refuse, not overwrite what waits; the firmware relies on room() to send whole frames.
-TEST(ByteRing, refuses_when_full) {
+TEST(ByteRing, RefusesWhenFull) {
   byte_ring<4> ring;
   for (std::uint8_t i = 0; i < 4; ++i) EXPECT_TRUE(ring.push(i));
   EXPECT_EQ(ring.room(), 0U);

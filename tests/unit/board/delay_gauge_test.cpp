@@ -8,14 +8,14 @@ namespace {
 constexpr std::uint64_t millisecond = 1'000'000;  // [ns]
 
 // A stream that stalls and then goes on as late as it has become shows no gap: only its age gives it away.
-TEST(DelayGauge, sees_a_stream_that_falls_behind) {
+TEST(DelayGauge, SeesAStreamThatFallsBehind) {
   delay_gauge gauge;
   for (std::uint64_t t = 0; t < 100; ++t) EXPECT_LE(gauge.lateness(t * millisecond, (7 + t) * millisecond), 0);
   EXPECT_NEAR(static_cast<double>(gauge.lateness(100 * millisecond, (7 + 100 + 5) * millisecond)), 5e6, 1e4);
 }
 
 // Clocks disagree by up to some hundred parts in a million: that alone must not look like delay, in either direction.
-TEST(DelayGauge, follows_a_slow_and_a_fast_clock) {
+TEST(DelayGauge, FollowsASlowAndAFastClock) {
   for (const double rate : {1.0 - 2e-4, 1.0 + 2e-4}) {
     delay_gauge gauge;
     for (std::uint64_t t = 0; t < 3'600'000; t += 100) {
@@ -26,7 +26,7 @@ TEST(DelayGauge, follows_a_slow_and_a_fast_clock) {
 }
 
 // The clocks have no common zero: a board that was switched on long before or after the host is no different.
-TEST(DelayGauge, needs_no_common_zero) {
+TEST(DelayGauge, NeedsNoCommonZero) {
   for (const std::uint64_t zero : {std::uint64_t{0}, std::uint64_t{1} << 62}) {
     delay_gauge gauge;
     EXPECT_EQ(gauge.lateness(zero, millisecond), 0);
@@ -35,7 +35,7 @@ TEST(DelayGauge, needs_no_common_zero) {
 }
 
 // After a restart the first message is the promptest known, however late it is compared with the old session.
-TEST(DelayGauge, begins_anew_after_restart) {
+TEST(DelayGauge, BeginsAnewAfterRestart) {
   delay_gauge gauge;
   gauge.lateness(0, 0);
   gauge.restart();
@@ -44,7 +44,7 @@ TEST(DelayGauge, begins_anew_after_restart) {
 
 // A stamp from a clock that was set, or from memory that was never written, must neither overflow nor be taken for
 // prompt, and what comes after it must be judged as if it had not been.
-TEST(DelayGauge, takes_no_absurd_stamp_for_a_prompt_one) {
+TEST(DelayGauge, TakesNoAbsurdStampForAPromptOne) {
   for (const std::uint64_t stamp : {std::uint64_t{0}, std::uint64_t{1} << 62, (std::uint64_t{1} << 63) - 1,
                                     std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
     delay_gauge gauge;
@@ -69,7 +69,7 @@ std::int64_t lateness_after_an_hour(double creep, std::uint64_t since) {
 
 // 864 ms in an hour are 240 parts in a million, just what clocks are allowed to drift apart: a queue that fills that
 // slowly on the way would never be noticed.
-TEST(DelayGauge, sees_a_delay_that_creeps) {
+TEST(DelayGauge, SeesADelayThatCreeps) {
   EXPECT_GT(lateness_after_an_hour(240e-6, 0), 80'000'000) << "from the first second on: beyond what quartz does";
   EXPECT_GT(lateness_after_an_hour(240e-6, 60), 780'000'000) << "after a first minute that tells the clocks' rates";
   EXPECT_GT(lateness_after_an_hour(50e-6, 60), 120'000'000);

@@ -77,7 +77,7 @@ const std::vector<bytes> frames_of_all_lengths = {
     of(encode(arm_sample_message{1, {2, 3}, {4, 5}}, 9))};
 
 // How the stream is cut into reads must not matter: a serial port delivers what it likes.
-TEST(FrameDecoder, finds_the_same_frames_in_chunks_of_any_size) {
+TEST(FrameDecoder, FindsTheSameFramesInChunksOfAnySize) {
   std::mt19937 random(1);
   bytes stream;
   std::vector<arrived> sent;
@@ -104,7 +104,7 @@ TEST(FrameDecoder, finds_the_same_frames_in_chunks_of_any_size) {
 
 // Garbage before and between frames must cost no frame, whatever it looks like; sync bytes are planted in it often. One
 // false start in 65,536 has a CRC that fits; with these seeds there is none.
-TEST(FrameDecoder, loses_no_intact_frame_to_garbage) {
+TEST(FrameDecoder, LosesNoIntactFrameToGarbage) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed + 1000);
     bytes stream;
@@ -124,7 +124,7 @@ TEST(FrameDecoder, loses_no_intact_frame_to_garbage) {
 }
 
 // Pure noise must not be taken for messages: with sync, version, type, length and CRC one in 2⁵⁶ bytes would be.
-TEST(FrameDecoder, finds_nothing_in_noise) {
+TEST(FrameDecoder, FindsNothingInNoise) {
   std::mt19937 random(3);
   bytes noise(1'000'000);
   for (auto& byte : noise) byte = static_cast<std::uint8_t>(random());
@@ -132,7 +132,7 @@ TEST(FrameDecoder, finds_nothing_in_noise) {
 }
 
 // One undetected flip, anywhere, would put a wrong number on the motor.
-TEST(FrameDecoder, rejects_every_single_and_double_bit_error) {
+TEST(FrameDecoder, RejectsEverySingleAndDoubleBitError) {
   for (const bytes& intact : frames_of_all_lengths) {
     for (std::size_t first = 0; first < intact.size() * 8; ++first) {
       for (std::size_t second = first; second < intact.size() * 8; ++second) {
@@ -147,7 +147,7 @@ TEST(FrameDecoder, rejects_every_single_and_double_bit_error) {
 }
 
 // Three flips are what the CRC and the spacing of types and lengths promise together.
-TEST(FrameDecoder, rejects_every_triple_bit_error_in_a_command) {
+TEST(FrameDecoder, RejectsEveryTripleBitErrorInACommand) {
   const bytes intact = command_frame();
   const std::size_t bits = intact.size() * 8;
   for (std::size_t first = 0; first < bits; ++first) {
@@ -164,7 +164,7 @@ TEST(FrameDecoder, rejects_every_triple_bit_error_in_a_command) {
 }
 
 // Bursts are what a disturbed cable makes.
-TEST(FrameDecoder, rejects_every_burst_of_sixteen_bits_in_a_command) {
+TEST(FrameDecoder, RejectsEveryBurstOfSixteenBitsInACommand) {
   const bytes intact = command_frame();
   for (std::size_t start = 0; start + 16 <= intact.size() * 8; ++start) {
     for (unsigned pattern = 1; pattern < 0x10000; pattern += 2) {
@@ -179,7 +179,7 @@ TEST(FrameDecoder, rejects_every_burst_of_sixteen_bits_in_a_command) {
 }
 
 // A frame cut off by a reconnect must neither be acted on nor swallow the next one.
-TEST(FrameDecoder, survives_truncation_at_every_byte) {
+TEST(FrameDecoder, SurvivesTruncationAtEveryByte) {
   for (const bytes& intact : frames_of_all_lengths) {
     for (std::size_t length = 0; length < intact.size(); ++length)
       expect_rejected(bytes(intact.begin(), intact.begin() + static_cast<std::ptrdiff_t>(length)));
@@ -187,7 +187,7 @@ TEST(FrameDecoder, survives_truncation_at_every_byte) {
 }
 
 // A CRC that is right does not make a frame right: one shorter than its type would be read beyond its end.
-TEST(FrameDecoder, rejects_frames_whose_length_is_not_their_types) {
+TEST(FrameDecoder, RejectsFramesWhoseLengthIsNotTheirTypes) {
   for (const std::size_t length : {0U, 7U, 9U, 64U}) {
     bytes wrong = {'d', 'p', protocol_version, static_cast<std::uint8_t>(message_type::command)};
     wrong.push_back(static_cast<std::uint8_t>(length));
@@ -199,7 +199,7 @@ TEST(FrameDecoder, rejects_frames_whose_length_is_not_their_types) {
 }
 
 // An intact frame inside what looks like a longer one must be found once the longer one proves false.
-TEST(FrameDecoder, finds_frames_inside_a_false_frame) {
+TEST(FrameDecoder, FindsFramesInsideAFalseFrame) {
   bytes stream = {'d', 'p', protocol_version, static_cast<std::uint8_t>(message_type::statistics), 44, 0, 0, 0, 0};
   append(stream, of(encode(hello_message{}, 1)));
   append(stream, command_frame(2));
@@ -208,7 +208,7 @@ TEST(FrameDecoder, finds_frames_inside_a_false_frame) {
 }
 
 // The counts are what a user has to find a bad cable with.
-TEST(FrameDecoder, counts_what_it_threw_away) {
+TEST(FrameDecoder, CountsWhatItThrewAway) {
   bytes damaged = command_frame();
   flip(damaged, header_size * 8);
   bytes stream = {1, 2, 3};
@@ -223,7 +223,7 @@ TEST(FrameDecoder, counts_what_it_threw_away) {
 }
 
 // A newer board must be recognised as such, not reported as a bad cable, and must not be obeyed.
-TEST(FrameDecoder, recognises_other_versions) {
+TEST(FrameDecoder, RecognisesOtherVersions) {
   bytes newer = {'d', 'p', 9, 0x12, 3, 0, 0, 0, 0, 'a', 'b', 'c'};
   const std::uint16_t crc = crc16(newer.data() + 2, newer.size() - 2);
   append(newer, {static_cast<std::uint8_t>(crc & 0xFF), static_cast<std::uint8_t>(crc >> 8)});

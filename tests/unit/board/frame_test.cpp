@@ -34,7 +34,7 @@ void expect_any_payload_to_survive() {
 
 // A field that is missing, doubled or of the wrong width would not come back; signalling NaNs must not be quieted
 // either.
-TEST(Frame, carries_every_bit_of_every_message) {
+TEST(Frame, CarriesEveryBitOfEveryMessage) {
   expect_any_payload_to_survive<configure_message>();
   expect_any_payload_to_survive<reset_message>();
   expect_any_payload_to_survive<command_message>();
@@ -55,7 +55,7 @@ std::string bytes_of(const Message& message, std::uint32_t sequence = 0) {
 }
 
 // Boards that are out there speak these bytes, whatever is added for others.
-TEST(Frame, of_one_axis_keeps_its_bytes) {
+TEST(Frame, OfOneAxisKeepsItsBytes) {
   EXPECT_EQ(bytes_of(hello_message()), "64 70 01 0f 00 00 00 00 00 2c 2e");
   EXPECT_EQ(
       bytes_of(description_message{1e-5, 50, 30, 100'000, 1'000'000, motion::rotation, "dashpot"}),
@@ -78,7 +78,7 @@ TEST(Frame, of_one_axis_keeps_its_bytes) {
 }
 
 // A type byte that a short error turns into another would let a frame be read with the wrong length.
-TEST(Frame, types_differ_in_four_bits_or_more) {
+TEST(Frame, TypesDifferInFourBitsOrMore) {
   for (const auto one : all_types) {
     for (const auto other : all_types) {
       const auto differing = static_cast<unsigned>(one) ^ static_cast<unsigned>(other);
@@ -88,7 +88,7 @@ TEST(Frame, types_differ_in_four_bits_or_more) {
 }
 
 // The decoder would throw away a message whose length it does not know, or that is longer than its buffer.
-TEST(Frame, every_type_has_a_length_and_no_other_byte_has) {
+TEST(Frame, EveryTypeHasALengthAndNoOtherByteHas) {
   int known = 0;
   for (unsigned type = 0; type < 256; ++type) {
     const std::size_t size = payload_size(static_cast<std::uint8_t>(type));

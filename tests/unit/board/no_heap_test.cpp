@@ -56,7 +56,7 @@ unsigned allocations_in(Body&& body) {
 }
 
 // A trap that catches nothing would let the next test pass whatever the driver does.
-TEST(NoHeap, the_trap_works) {
+TEST(NoHeap, TheTrapWorks) {
   int* volatile kept = nullptr;  // volatile: a compiler may leave out an allocation that nobody sees
   EXPECT_EQ(allocations_in([&] { kept = new int(1); }), 1U);
   delete kept;
@@ -87,7 +87,7 @@ void expect_no_allocation() {
 }
 
 // One allocation in the loop is a missed deadline sooner or later.
-TEST(NoHeap, reading_and_writing_allocate_nothing) {
+TEST(NoHeap, ReadingAndWritingAllocateNothing) {
   expect_no_allocation<test_plant>();
   expect_no_allocation<test_arm>();
 }

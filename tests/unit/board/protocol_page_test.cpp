@@ -24,7 +24,7 @@ void expect_on_page(const Message& message, std::uint32_t sequence) {
 }
 
 // A field added, moved or widened in the code alone would leave every other implementation behind.
-TEST(ProtocolPage, examples_are_what_is_sent) {
+TEST(ProtocolPage, ExamplesAreWhatIsSent) {
   expect_on_page(hello_message(), 0);
   expect_on_page(configure_message{1'000'000, 4.0F, 0.0F, 10, sampling::on_command, controller::host}, 0);
   expect_on_page(reset_message{1}, 0);
@@ -50,7 +50,7 @@ void expect_length_on_page(const char* name) {
 }
 
 // The table of types and lengths is what a decoder is written from.
-TEST(ProtocolPage, types_and_lengths_are_the_codes) {
+TEST(ProtocolPage, TypesAndLengthsAreTheCodes) {
   expect_length_on_page<hello_message>("hello");
   expect_length_on_page<description_message>("description");
   expect_length_on_page<configure_message>("configure");

@@ -9,7 +9,7 @@ namespace dashpot::board {
 namespace {
 
 // A wrong verdict lets an old command reach the motor, or keeps a new one from it. Numbers wrap around on the way.
-TEST(SequenceTracker, agrees_with_a_set_of_all_numbers) {
+TEST(SequenceTracker, AgreesWithASetOfAllNumbers) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     std::mt19937 random(seed);
     const std::uint64_t first = 0xFFFF'FF00U;
@@ -31,7 +31,7 @@ TEST(SequenceTracker, agrees_with_a_set_of_all_numbers) {
 }
 
 // Nothing is known of numbers before the first: an overtaken one must not make the count of lost frames negative.
-TEST(SequenceTracker, does_not_miss_what_came_before_the_first) {
+TEST(SequenceTracker, DoesNotMissWhatCameBeforeTheFirst) {
   sequence_tracker tracker;
   tracker.note(10);
   EXPECT_EQ(tracker.note(9), arrival::late);
@@ -42,7 +42,7 @@ TEST(SequenceTracker, does_not_miss_what_came_before_the_first) {
 }
 
 // Behind the window a frame can only be called late; it must not be taken for new.
-TEST(SequenceTracker, calls_what_is_too_old_late) {
+TEST(SequenceTracker, CallsWhatIsTooOldLate) {
   sequence_tracker tracker;
   for (std::uint32_t i = 0; i < 100; ++i) tracker.note(i);
   EXPECT_EQ(tracker.note(50), arrival::late);
@@ -50,7 +50,7 @@ TEST(SequenceTracker, calls_what_is_too_old_late) {
 }
 
 // A long outage must be counted in full, and what follows must be fresh.
-TEST(SequenceTracker, counts_a_long_gap) {
+TEST(SequenceTracker, CountsALongGap) {
   sequence_tracker tracker;
   tracker.note(0);
   EXPECT_EQ(tracker.note(1'000), arrival::fresh);
@@ -65,7 +65,7 @@ TEST(SequenceTracker, counts_a_long_gap) {
 }
 
 // A check sum of 16 bits lets one damaged frame in 65,536 pass. One wild number must not make all that follow seem old.
-TEST(SequenceTracker, ignores_one_wild_number) {
+TEST(SequenceTracker, IgnoresOneWildNumber) {
   for (const std::uint32_t wild : {0x7FFF'0000U, 0x8000'0100U, 0xFFFF'0000U, 5'000U}) {
     sequence_tracker tracker;
     for (std::uint32_t i = 100; i < 200; ++i) {
@@ -79,7 +79,7 @@ TEST(SequenceTracker, ignores_one_wild_number) {
 }
 
 // A peer that begins to count anew must be heard again; single old frames that come again between sound ones must not.
-TEST(SequenceTracker, takes_a_run_of_consecutive_numbers_for_a_new_beginning) {
+TEST(SequenceTracker, TakesARunOfConsecutiveNumbersForANewBeginning) {
   sequence_tracker tracker;
   for (std::uint32_t i = 5'000; i < 5'100; ++i) tracker.note(i);
   for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(tracker.note(i), arrival::late);
@@ -91,7 +91,7 @@ TEST(SequenceTracker, takes_a_run_of_consecutive_numbers_for_a_new_beginning) {
 }
 
 // After a restart any number is a beginning: otherwise a board that was switched off and on would stay deaf.
-TEST(SequenceTracker, begins_anew_after_restart) {
+TEST(SequenceTracker, BeginsAnewAfterRestart) {
   sequence_tracker tracker;
   tracker.note(5000);
   tracker.restart();

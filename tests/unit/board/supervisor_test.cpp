@@ -42,7 +42,7 @@ void expect_stopped(const supervisor& board, stop_cause cause) {
 }
 
 // A board that makes torque at power-on, or before it is configured, would hit whoever switches it on.
-TEST(Supervisor, makes_nothing_until_configured_and_reset) {
+TEST(Supervisor, MakesNothingUntilConfiguredAndReset) {
   supervisor board(facts(), 5.0F);
   board.obey(0, {1.0F, 20.0F});
   expect_applied(board, 0, 5.0F);
@@ -60,7 +60,7 @@ TEST(Supervisor, makes_nothing_until_configured_and_reset) {
 }
 
 // The promise of the watchdog: after the stated number of silent periods, not one more, the motor makes nothing.
-TEST(Supervisor, stops_after_the_stated_silence) {
+TEST(Supervisor, StopsAfterTheStatedSilence) {
   supervisor board = running();
   board.obey(0, {1.0F, 20.0F});
   for (int period = 0; period < 4; ++period) board.pass_period();
@@ -70,7 +70,7 @@ TEST(Supervisor, stops_after_the_stated_silence) {
 }
 
 // A host that talks again, or repeats itself, must not bring the motor back by that alone.
-TEST(Supervisor, leaves_safe_only_on_reset) {
+TEST(Supervisor, LeavesSafeOnlyOnReset) {
   supervisor board = running();
   board.obey(0, {1.0F, 20.0F});
   for (int period = 0; period < 5; ++period) board.pass_period();
@@ -84,7 +84,7 @@ TEST(Supervisor, leaves_safe_only_on_reset) {
 }
 
 // A reset that was repeated or delayed on the way would end a later stop that nobody has looked at.
-TEST(Supervisor, ignores_a_reset_for_an_earlier_stop) {
+TEST(Supervisor, IgnoresAResetForAnEarlierStop) {
   supervisor board = running();
   const std::uint16_t earlier = seen(board).stops;
   board.obey(0, {nan, 0});
@@ -93,7 +93,7 @@ TEST(Supervisor, ignores_a_reset_for_an_earlier_stop) {
 }
 
 // Repeated and overtaken commands must neither move the motor nor count as a sign of life.
-TEST(Supervisor, obeys_only_newer_commands) {
+TEST(Supervisor, ObeysOnlyNewerCommands) {
   supervisor board = running();
   board.obey(10, {1.0F, 20.0F});
   EXPECT_FALSE(board.obey(10, {0.5F, 1.0F}));
@@ -107,14 +107,14 @@ TEST(Supervisor, obeys_only_newer_commands) {
 }
 
 // Silence between reset and the first command is the host starting up; the motor makes nothing then anyway.
-TEST(Supervisor, waits_for_the_first_command_of_the_host) {
+TEST(Supervisor, WaitsForTheFirstCommandOfTheHost) {
   supervisor board = running();
   for (int period = 0; period < 1000; ++period) board.pass_period();
   EXPECT_TRUE(board.running());
 }
 
-// A command beyond the limits is limited; one that is no number is a defect of the host and stops the board.
-TEST(Supervisor, limits_commands_and_stops_at_bad_ones) {
+// A command beyond the limits is limited; one that is NaN or infinite is a defect of the host and stops the board.
+TEST(Supervisor, LimitsCommandsAndStopsAtBadOnes) {
   supervisor board = running();
   board.obey(0, {5.0F, 100.0F});
   expect_applied(board, 2.0F, 30.0F);
@@ -130,7 +130,7 @@ TEST(Supervisor, limits_commands_and_stops_at_bad_ones) {
 }
 
 // With its own model the board must take the host's commands as signs of life only, and need them if so configured.
-TEST(Supervisor, runs_its_own_model_under_the_watchdog) {
+TEST(Supervisor, RunsItsOwnModelUnderTheWatchdog) {
   supervisor board = running(controller::own_model);
   board.obey_model({1.5F, 11.0F}, 0.1F);
   expect_applied(board, 1.5F, 11.0F);
@@ -143,7 +143,7 @@ TEST(Supervisor, runs_its_own_model_under_the_watchdog) {
 }
 
 // The motor of an own model is on from the reset: a host that dies right after it must be noticed too.
-TEST(Supervisor, watches_its_own_model_from_the_reset_on) {
+TEST(Supervisor, WatchesItsOwnModelFromTheResetOn) {
   supervisor board = running(controller::own_model);
   board.obey_model({1.5F, 11.0F}, 0.1F);
   for (int period = 0; period < 5; ++period) board.pass_period();
@@ -151,7 +151,7 @@ TEST(Supervisor, watches_its_own_model_from_the_reset_on) {
 }
 
 // Alone on its own model nobody else watches over the board.
-TEST(Supervisor, stops_its_own_model_when_it_fails_or_runs_away) {
+TEST(Supervisor, StopsItsOwnModelWhenItFailsOrRunsAway) {
   for (const outputs bad : {outputs{nan, 1}, {1, infinite}}) {
     supervisor board = running(controller::own_model);
     board.obey_model(bad, 0);
@@ -165,7 +165,7 @@ TEST(Supervisor, stops_its_own_model_when_it_fails_or_runs_away) {
 }
 
 // A board alone on its model may run without a host for ever; one that the host controls may not.
-TEST(Supervisor, needs_a_watchdog_where_the_host_controls) {
+TEST(Supervisor, NeedsAWatchdogWhereTheHostControls) {
   supervisor board(facts(1'000'000), 5.0F);
   configure_message alone = wish(controller::own_model);
   alone.watchdog_periods = 0;
@@ -179,7 +179,7 @@ TEST(Supervisor, needs_a_watchdog_where_the_host_controls) {
 }
 
 // Each refusal that the README names, and that a refused board stays idle whatever the host sends.
-TEST(Supervisor, refuses_what_it_cannot_do) {
+TEST(Supervisor, RefusesWhatItCannotDo) {
   const auto verdict_on = [](auto change, std::uint32_t model_period = 1'000'000) {
     configure_message changed = wish(controller::own_model);
     change(changed);
@@ -200,7 +200,7 @@ TEST(Supervisor, refuses_what_it_cannot_do) {
 }
 
 // A new session must find a quiet board, whatever the last one left, and be numbered from wherever it begins.
-TEST(Supervisor, configure_stops_whatever_runs) {
+TEST(Supervisor, ConfigureStopsWhateverRuns) {
   supervisor board = running();
   board.obey(1000, {1.0F, 20.0F});
   const configured_message answer = board.configure(wish());
@@ -213,7 +213,7 @@ TEST(Supervisor, configure_stops_whatever_runs) {
 
 // Every comparison with NaN is false, and no speed is beyond a negative limit's absence: taken for "none", a limit that
 // was meant would be off.
-TEST(Supervisor, refuses_a_speed_limit_that_is_none) {
+TEST(Supervisor, RefusesASpeedLimitThatIsNone) {
   for (const controller who : {controller::host, controller::own_model}) {
     for (const float bad : {nan, -0.5F, infinite}) {
       supervisor board(facts(1'000'000), 5.0F);
@@ -227,7 +227,7 @@ TEST(Supervisor, refuses_a_speed_limit_that_is_none) {
 }
 
 // A jump is a sensor that lies: the own model must not make a force of it, with a speed limit or without.
-TEST(Supervisor, stops_when_the_encoder_jumps) {
+TEST(Supervisor, StopsWhenTheEncoderJumps) {
   supervisor board = running(controller::own_model);  // 0.5 m/s, 1 ms, 10 µm a count: 50 counts, and one of rounding
   EXPECT_TRUE(board.accept_move(51, 1));
   EXPECT_TRUE(board.accept_move(-101, 2));
@@ -244,7 +244,7 @@ TEST(Supervisor, stops_when_the_encoder_jumps) {
 
 // Commands that begin to count anew come from a host that was restarted, or from a replay: neither may drive what the
 // host before them has started.
-TEST(Supervisor, stops_when_commands_begin_anew) {
+TEST(Supervisor, StopsWhenCommandsBeginAnew) {
   supervisor board = running();
   for (std::uint32_t i = 9'000; i < 9'100; ++i) board.obey(i, {1.0F, 20.0F});
   for (std::uint32_t i = 0; i < 3; ++i) EXPECT_FALSE(board.obey(i, {2.0F, 20.0F}));
@@ -254,7 +254,7 @@ TEST(Supervisor, stops_when_commands_begin_anew) {
 }
 
 // One number beyond reason must not make the board deaf to the commands that would let go of the handle.
-TEST(Supervisor, obeys_zero_after_a_wild_number) {
+TEST(Supervisor, ObeysZeroAfterAWildNumber) {
   supervisor board = running();
   for (std::uint32_t i = 0; i < 10; ++i) board.obey(i, {1.0F, 20.0F});
   EXPECT_FALSE(board.obey(0x4000'0000U, {2.0F, 20.0F}));

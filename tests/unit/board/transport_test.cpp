@@ -53,7 +53,7 @@ void expect_transparent(transport& near, transport& far) {
 }
 
 // Serial ports and pseudo-terminals go through the same line discipline.
-TEST(Transport, serial_and_pty_are_transparent) {
+TEST(Transport, SerialAndPtyAreTransparent) {
   transport near = opened("pty:");
   std::uint8_t none = 0;
   EXPECT_EQ(near.read(&none, 1), 0U);
@@ -63,7 +63,7 @@ TEST(Transport, serial_and_pty_are_transparent) {
 }
 
 // The path that QEMU and the second peer are reached on.
-TEST(Transport, unix_socket_is_transparent) {
+TEST(Transport, UnixSocketIsTransparent) {
   const testing::TemporaryFolder folder;
   const std::string path = folder.path() / "s";
   const int listening = ::socket(AF_UNIX, SOCK_STREAM, 0);
@@ -79,7 +79,7 @@ TEST(Transport, unix_socket_is_transparent) {
 }
 
 // A board on Ethernet; a port that nobody listens on yet must not end the session.
-TEST(Transport, udp_is_transparent_and_outlives_refusal) {
+TEST(Transport, UdpIsTransparentAndOutlivesRefusal) {
   const int bound = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0);
   sockaddr_in here = {};
   here.sin_family = AF_INET;
@@ -112,7 +112,7 @@ TEST(Transport, udp_is_transparent_and_outlives_refusal) {
 }
 
 // The loop learns from closed() that the board is gone; SIGPIPE would end the process instead.
-TEST(Transport, notices_that_the_other_end_hung_up) {
+TEST(Transport, NoticesThatTheOtherEndHungUp) {
   stream_pair reading = connected_pair();
   { const transport gone = std::move(reading.far); }
   std::uint8_t byte = 0;
@@ -131,7 +131,7 @@ TEST(Transport, notices_that_the_other_end_hung_up) {
 }
 
 // A full stream takes what it can and says so; waiting would stop the loop.
-TEST(Transport, does_not_wait_for_a_full_stream) {
+TEST(Transport, DoesNotWaitForAFullStream) {
   stream_pair ends = connected_pair();
   const std::vector<std::uint8_t> much(1 << 20);
   std::size_t taken = 0;
@@ -141,7 +141,7 @@ TEST(Transport, does_not_wait_for_a_full_stream) {
 }
 
 // A user who gets the path or the rate wrong must read which, and why.
-TEST(Transport, says_why_it_does_not_open) {
+TEST(Transport, SaysWhyItDoesNotOpen) {
   EXPECT_EQ(reason("serial:/nowhere/tty"), "'serial:/nowhere/tty': No such file or directory");
   EXPECT_EQ(reason("serial:/dev/null"), "'serial:/dev/null': Inappropriate ioctl for device");
   EXPECT_EQ(
@@ -154,7 +154,7 @@ TEST(Transport, says_why_it_does_not_open) {
 }
 
 // Moving must hand the descriptor over, neither leak nor close it twice.
-TEST(Transport, moves) {
+TEST(Transport, Moves) {
   stream_pair ends = connected_pair();
   transport moved = std::move(ends.near);
   const std::uint8_t one = 1;
@@ -170,7 +170,7 @@ TEST(Transport, moves) {
 
 // An empty datagram is legal, and says nothing about those behind it: taken for the end, each would cost a period's
 // sample.
-TEST(Transport, reads_on_behind_empty_datagrams) {
+TEST(Transport, ReadsOnBehindEmptyDatagrams) {
   int ends[2];
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends), 0);
   transport near(ends[0], transport::kind::datagram_socket), far(ends[1], transport::kind::datagram_socket);

@@ -20,7 +20,7 @@ void expect_refused(const std::string& text, const std::string& reason) {
 }
 
 // The documented forms would stop working.
-TEST(TransportUrl, reads_every_form) {
+TEST(TransportUrl, ReadsEveryForm) {
   EXPECT_EQ(parsed<serial_url>("serial:/dev/ttyACM0").path, "/dev/ttyACM0");
   EXPECT_EQ(parsed<serial_url>("serial:/dev/ttyACM0").baud, 115200U);
   EXPECT_EQ(parsed<serial_url>("serial:/dev/ttyUSB1?baud=921600").path, "/dev/ttyUSB1");
@@ -33,7 +33,7 @@ TEST(TransportUrl, reads_every_form) {
 }
 
 // A mistyped URL must be named with what was expected, not opened as something else.
-TEST(TransportUrl, refuses_with_the_reason) {
+TEST(TransportUrl, RefusesWithTheReason) {
   const std::string forms = "expected serial:path?baud=number, pty:, unix:path or udp:host:port";
   const std::string port = "a port is a number from 1 to 65535";
   const std::string baud = "behind the '?' comes baud= and a number";

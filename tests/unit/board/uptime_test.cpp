@@ -71,7 +71,7 @@ run_of_a_loop run(sampling when, bool old) {
 // Sequence numbers both ways, counts, timestamps and the host's clock all turn over within this run; the force must be
 // that of a run in which none does, to the rounding of a position 21 km from zero, and nothing may be lost, late or at
 // fault.
-TEST(Uptime, of_the_host_is_seen_by_nobody) {
+TEST(Uptime, OfTheHostIsSeenByNobody) {
   for (const sampling when : {sampling::on_command, sampling::free_running}) {
     const run_of_a_loop young = run(when, false), old = run(when, true);
     EXPECT_EQ(old.summary.faults.total(), 0U) << name_of(old.summary.last_fault.kind);
@@ -108,7 +108,7 @@ std::vector<sample_message> samples_of(bool old) {
 }
 
 // The board's own model, on the same wraps: the same force to the last bit, for whole counts are subtracted as such.
-TEST(Uptime, of_the_firmware_is_seen_by_nobody) {
+TEST(Uptime, OfTheFirmwareIsSeenByNobody) {
   const std::vector<sample_message> young = samples_of(false), old = samples_of(true);
   ASSERT_EQ(old.size(), young.size());
   for (std::size_t k = 0; k < old.size(); ++k) {
@@ -121,7 +121,7 @@ TEST(Uptime, of_the_firmware_is_seen_by_nobody) {
 }
 
 // The number of stops has 16 bits: at its wrap a reset must still end the newest stop, and only that.
-TEST(Uptime, of_the_stops_is_seen_by_nobody) {
+TEST(Uptime, OfTheStopsIsSeenByNobody) {
   const description_message facts = facts_of_board().description;
   supervisor board(facts, 5);
   const configure_message wish = {period, 4, 0, 5, sampling::on_command, controller::host};

@@ -161,7 +161,7 @@ TEST(ContactCommand, SaysHowLongItHoldsOn) {
   EXPECT_EQ(contact_text(c.decomposition, written_network(wall)), "");
 }
 
-// A sample that is no number would change the surface, or find the brake changed.
+// A NaN or infinite sample would change the surface, or find the brake changed.
 TEST(ContactCommand, SurvivesWhatIsNoNumber) {
   for (const char* structure : {wall, tissue}) {
     const compiler::UpdateLaw law = law_for(structure, encoder_step);

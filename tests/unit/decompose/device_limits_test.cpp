@@ -14,7 +14,7 @@ const char* const maxwell = R"({ "series": [ { "damper": 5 }, { "spring": 50 } ]
 
 // Fails if the brake is asked for more than it has, or if what it lacks is not made up by the motor: |b∞ − b| is the
 // gain of what the motor adds.
-TEST(DeviceLimits, the_brake_is_capped) {
+TEST(DeviceLimits, TheBrakeIsCapped) {
   const Device device = late_device(4);
   const Decomposed all = decomposed(kelvin_structure, {}, &device);
   EXPECT_EQ(all.result->choice().damping, 4);
@@ -24,7 +24,7 @@ TEST(DeviceLimits, the_brake_is_capped) {
 }
 
 // Fails if a brake that is strong enough is reported as capped.
-TEST(DeviceLimits, a_strong_brake_is_not_capped) {
+TEST(DeviceLimits, AStrongBrakeIsNotCapped) {
   const Device device = late_device(10);
   const Decomposed all = decomposed(kelvin_structure, {}, &device);
   EXPECT_EQ(all.result->choice().damping, 10);
@@ -32,7 +32,7 @@ TEST(DeviceLimits, a_strong_brake_is_not_capped) {
 }
 
 // Fails if a device without a brake is given damping to make.
-TEST(DeviceLimits, a_device_without_brake_leaves_everything_to_the_motor) {
+TEST(DeviceLimits, ADeviceWithoutBrakeLeavesEverythingToTheMotor) {
   Device device = late_device(0);
   device.description.brake = {};
   const Decomposed all = decomposed(maxwell, {}, &device);
@@ -40,7 +40,7 @@ TEST(DeviceLimits, a_device_without_brake_leaves_everything_to_the_motor) {
 }
 
 // Fails if a rotary brake's reach is not brought to the tool: b = b_joint/r².
-TEST(DeviceLimits, the_arm_converts_the_brake) {
+TEST(DeviceLimits, TheArmConvertsTheBrake) {
   Device device = late_device(0.007);
   device.description.motion = motion::rotation;
   device.description.arm_radius = 0.05;
@@ -48,7 +48,7 @@ TEST(DeviceLimits, the_arm_converts_the_brake) {
 }
 
 // Fails if a translational network reaches a rotary joint without an arm between them.
-TEST(DeviceLimits, motions_that_do_not_fit_are_refused) {
+TEST(DeviceLimits, MotionsThatDoNotFitAreRefused) {
   Device device = late_device(1);
   device.description.motion = motion::rotation;
   const Decomposed all = decomposed(maxwell, {}, &device);
@@ -57,7 +57,7 @@ TEST(DeviceLimits, motions_that_do_not_fit_are_refused) {
 }
 
 // Fails if motor power put into a steady motion goes unsaid: b = 10 where the network itself damps about 0.1.
-TEST(DeviceLimits, injected_power_is_reported) {
+TEST(DeviceLimits, InjectedPowerIsReported) {
   const Decomposed loud = decomposed(stiff_and_soft_kelvins, choosing("largest-observer"));
   EXPECT_TRUE(loud.reports(DiagnosticCode::injects_power));
   EXPECT_FALSE(decomposed(kelvin_structure, choosing("largest-observer")).reports(DiagnosticCode::injects_power));
@@ -67,7 +67,7 @@ TEST(DeviceLimits, injected_power_is_reported) {
 
 // Fails if `auto` lets a late estimate drive the states where it errs most: with b = B the whole viscous part may be
 // late together (the paper's (19)), with b = b∞ no estimate is needed at all.
-TEST(DeviceLimits, auto_chooses_the_state_input_by_its_error) {
+TEST(DeviceLimits, AutoChoosesTheStateInputByItsError) {
   Device device = late_device(100);
   device.description.loop.band_high = 1;  // slow motion, as in the paper's Fig. 6
   const Decomposed all = decomposed(maxwell, {}, &device);
@@ -81,26 +81,26 @@ TEST(DeviceLimits, auto_chooses_the_state_input_by_its_error) {
 }
 
 // Fails if an ideal device is given anything but `position`, which cannot drift.
-TEST(DeviceLimits, an_ideal_device_is_position_driven) {
+TEST(DeviceLimits, AnIdealDeviceIsPositionDriven) {
   EXPECT_EQ(decomposed(maxwell).result->choice().state_input, StateInput::position);
 }
 
 // Fails if `quietest-passive`, whose passivity rests on velocity driven states, is driven by anything else.
-TEST(DeviceLimits, quietest_passive_is_velocity_driven) {
+TEST(DeviceLimits, QuietestPassiveIsVelocityDriven) {
   EXPECT_EQ(decomposed(maxwell)["quietest-passive"].state_input, StateInput::velocity);
   const Device device = late_device(100);
   EXPECT_EQ(decomposed(maxwell, {}, &device)["quietest-passive"].state_input, StateInput::velocity);
 }
 
 // Fails if states are driven by velocity where b = b∞ needs no estimate.
-TEST(DeviceLimits, quietest_passive_needs_no_estimate_at_the_feedthrough) {
+TEST(DeviceLimits, QuietestPassiveNeedsNoEstimateAtTheFeedthrough) {
   const Decomposed all = decomposed(kelvin_structure);
   EXPECT_EQ(all["quietest-passive"].state_input, StateInput::position);
   EXPECT_EQ(all["quietest-passive"].velocity_gain, 0);
 }
 
 // Fails if slow modes are driven by estimates whose sum is not the displacement.
-TEST(DeviceLimits, drifting_estimates_never_drive_states) {
+TEST(DeviceLimits, DriftingEstimatesNeverDriveStates) {
   const Device device = drifting_device();
   const Decomposed all = decomposed(maxwell, {}, &device);
   for (const Candidate& candidate : all.result->candidates)
@@ -110,7 +110,7 @@ TEST(DeviceLimits, drifting_estimates_never_drive_states) {
 
 // Fails if what the motor makes is taken to come at once: of a lone spring the loop's delay and the amplifier's lag
 // alone make the error, |A − 1|, largest at the end of the band.
-TEST(DeviceLimits, a_late_motor_errs) {
+TEST(DeviceLimits, ALateMotorErrs) {
   Device device = late_device(1);
   device.description.loop.delay_samples = 3;
   device.description.motor.amplifier_lag = 0.002;
@@ -122,7 +122,7 @@ TEST(DeviceLimits, a_late_motor_errs) {
 }
 
 // Fails if the user can ask for that drift unwarned.
-TEST(DeviceLimits, drifting_estimates_are_refused_when_asked_for) {
+TEST(DeviceLimits, DriftingEstimatesAreRefusedWhenAskedFor) {
   const Device device = drifting_device();
   Choices choices;
   choices.state_input = StateInput::velocity;
@@ -132,7 +132,7 @@ TEST(DeviceLimits, drifting_estimates_are_refused_when_asked_for) {
 }
 
 // Fails if `nodal`, which exists for backward Euler, is taken with the exact scheme or is not compared without it.
-TEST(DeviceLimits, nodal_states_need_backward_euler) {
+TEST(DeviceLimits, NodalStatesNeedBackwardEuler) {
   Choices choices;
   choices.state_input = StateInput::nodal;
   const Decomposed refused = decomposed(maxwell, choices);
@@ -146,7 +146,7 @@ TEST(DeviceLimits, nodal_states_need_backward_euler) {
 }
 
 // Fails if a brake that makes thousands of times the network's force, for the motor to take off, goes unsaid.
-TEST(DeviceLimits, a_brake_that_dwarfs_the_network_is_reported) {
+TEST(DeviceLimits, ABrakeThatDwarfsTheNetworkIsReported) {
   const Device device = late_device(10);
   EXPECT_TRUE(decomposed(R"({ "series": [ { "damper": 10 }, { "spring": 0.01 } ] })", {}, &device)
                   .reports(DiagnosticCode::brake_dwarfs_network));

@@ -17,7 +17,7 @@ EvaluatedOption uncertified(double damping, double error) { return {damping, err
 
 // Fails if an option that is the tissue no more is taken for its damping, or if not all damping that is within the
 // tolerance is used.
-TEST(FaithfulRule, takes_the_largest_damping_within_the_tolerance) {
+TEST(FaithfulRule, TakesTheLargestDampingWithinTheTolerance) {
   const FaithfulChoice choice =
       choose_faithful({certified(0, 0.01, 0), certified(2, 0.05, 0), certified(3, 0.051, 0)}, tolerance);
   EXPECT_EQ(choice.chosen, 1u);
@@ -27,7 +27,7 @@ TEST(FaithfulRule, takes_the_largest_damping_within_the_tolerance) {
 }
 
 // Fails if nothing would be left where no option reaches the tolerance: 1.05 × the least error is allowed then.
-TEST(FaithfulRule, allows_a_little_more_than_the_least_reachable_error) {
+TEST(FaithfulRule, AllowsALittleMoreThanTheLeastReachableError) {
   const FaithfulChoice choice =
       choose_faithful({certified(0, 0.2, 0), certified(1, 0.209, 0), certified(2, 0.211, 0)}, tolerance);
   EXPECT_EQ(choice.chosen, 1u);
@@ -36,7 +36,7 @@ TEST(FaithfulRule, allows_a_little_more_than_the_least_reachable_error) {
 
 // Fails if damping is bought with damping that passivity has to add, or if what is added is compared with that of
 // options which err too much.
-TEST(FaithfulRule, adds_hardly_more_than_the_least) {
+TEST(FaithfulRule, AddsHardlyMoreThanTheLeast) {
   const FaithfulChoice choice = choose_faithful(
       {certified(1, 0.01, 0.100), certified(2, 0.02, 0.105), certified(3, 0.02, 0.106), certified(4, 0.3, 0)},
       tolerance);
@@ -45,7 +45,7 @@ TEST(FaithfulRule, adds_hardly_more_than_the_least) {
 }
 
 // Fails if of equal dampings a noisier one is taken; a noise that is not known counts as the most.
-TEST(FaithfulRule, prefers_less_motor_noise) {
+TEST(FaithfulRule, PrefersLessMotorNoise) {
   EXPECT_EQ(
       choose_faithful({certified(1, 0.01, 0, {}), certified(1, 0.02, 0, 2.0), certified(1, 0.03, 0, 1.0)}, tolerance)
           .chosen,
@@ -53,12 +53,12 @@ TEST(FaithfulRule, prefers_less_motor_noise) {
 }
 
 // Fails if an uncertified option is handed out while a certified one is within the tolerance.
-TEST(FaithfulRule, takes_certified_options_only) {
+TEST(FaithfulRule, TakesCertifiedOptionsOnly) {
   EXPECT_EQ(choose_faithful({uncertified(5, 0.01), certified(1, 0.04, 0.5)}, tolerance).chosen, 1u);
 }
 
 // Fails if a law that cannot be certified, and so is refused, sets an error that no certified one reaches.
-TEST(FaithfulRule, an_uncertified_error_shuts_out_nothing) {
+TEST(FaithfulRule, AnUncertifiedErrorShutsOutNothing) {
   const FaithfulChoice choice = choose_faithful(
       {uncertified(5, 0.01), certified(1, 0.300, 0), certified(2, 0.314, 0), certified(3, 0.316, 0)}, tolerance);
   EXPECT_EQ(choice.chosen, 2u);
@@ -66,7 +66,7 @@ TEST(FaithfulRule, an_uncertified_error_shuts_out_nothing) {
 }
 
 // Fails if there is no choice where nothing can be certified: it is the same without that filter.
-TEST(FaithfulRule, without_certificates_the_error_decides) {
+TEST(FaithfulRule, WithoutCertificatesTheErrorDecides) {
   const FaithfulChoice choice =
       choose_faithful({uncertified(1, 0.01), uncertified(2, 0.05), uncertified(3, 0.06)}, tolerance);
   EXPECT_EQ(choice.chosen, 1u);

@@ -25,7 +25,7 @@ const char* const bridge = R"([ { "spring": 2, "nodes": ["tool", "a"] },   { "da
                                 { "damper": 7, "nodes": ["a", "b"] } ])";
 
 // Fails if a Kelvin element's brake is not its damper, whichever of the physical candidates is asked.
-TEST(NamedCandidates, kelvin) {
+TEST(NamedCandidates, Kelvin) {
   const Decomposed all = decomposed(kelvin_structure);
   for (const char* name : {"paper", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer"})
     expect_damping(all, name, 10);
@@ -34,7 +34,7 @@ TEST(NamedCandidates, kelvin) {
 }
 
 // Fails if the brake of a Maxwell element depends on which end of it is at the tool (Fig. 4a, Fig. 4b, law (19)).
-TEST(NamedCandidates, maxwell_either_way_round) {
+TEST(NamedCandidates, MaxwellEitherWayRound) {
   for (const char* maxwell : {damper_at_tool, spring_at_tool}) {
     const Decomposed all = decomposed(maxwell);
     expect_damping(all, "paper", 5);
@@ -47,7 +47,7 @@ TEST(NamedCandidates, maxwell_either_way_round) {
 }
 
 // Fails if the generalised Maxwell model does not give the brake all of its dampers, ΣB_i.
-TEST(NamedCandidates, generalised_maxwell) {
+TEST(NamedCandidates, GeneralisedMaxwell) {
   const Decomposed all = decomposed(second_order);
   expect_damping(all, "paper", 11);
   expect_damping(all, "zero-frequency", 11);
@@ -56,7 +56,7 @@ TEST(NamedCandidates, generalised_maxwell) {
 }
 
 // Fails if a stiff, strongly damped element hides the soft one that dissipates nearly everything.
-TEST(NamedCandidates, kelvins_in_series_observe_the_soft_one) {
+TEST(NamedCandidates, KelvinsInSeriesObserveTheSoftOne) {
   const Decomposed all = decomposed(stiff_and_soft_kelvins);
   expect_damping(all, "paper", 0.1);
   expect_damping(all, "largest-observer", 10);
@@ -75,14 +75,14 @@ double error_when_late(const LinearForm& form, double damping) {
 
 // Fails if the figures of theory, section 4, for that example are not what the candidates cost: 46 % and 0.0009 %, as
 // printed.
-TEST(NamedCandidates, kelvins_in_series_show_what_the_choice_costs) {
+TEST(NamedCandidates, KelvinsInSeriesShowWhatTheChoiceCosts) {
   const Decomposed all = decomposed(stiff_and_soft_kelvins);
   EXPECT_NEAR(100 * error_when_late(all.form, all["largest-observer"].damping), 46, 1);
   EXPECT_NEAR(100 * error_when_late(all.form, all["paper"].damping), 0.0009, 0.0001);
 }
 
 // Fails if a network that is no tree gets a brake other than its low-frequency viscosity.
-TEST(NamedCandidates, bridge_takes_the_viscosity_at_low_frequency) {
+TEST(NamedCandidates, BridgeTakesTheViscosityAtLowFrequency) {
   const Decomposed all = decomposed(bridge);
   const double viscosity = to_double(zero_frequency_damping(all.form));
   expect_damping(all, "paper", viscosity);
@@ -91,12 +91,12 @@ TEST(NamedCandidates, bridge_takes_the_viscosity_at_low_frequency) {
 }
 
 // Fails if dampers in series are not one damper.
-TEST(NamedCandidates, dampers_in_series_merge_first) {
+TEST(NamedCandidates, DampersInSeriesMergeFirst) {
   expect_damping(decomposed(R"({ "series": [ { "damper": 3 }, { "spring": 1 }, { "damper": 6 } ] })"), "paper", 2);
 }
 
 // Fails if Kelvin elements of equal relaxation time in series are not one Kelvin element: 3 · 6/(3 + 6).
-TEST(NamedCandidates, equal_relaxation_times_merge_first) {
+TEST(NamedCandidates, EqualRelaxationTimesMergeFirst) {
   const Decomposed all = decomposed(R"({ "series": [ { "parallel": [ { "spring": 30 }, { "damper": 3 } ] },
                                                      { "parallel": [ { "spring": 60 }, { "damper": 6 } ] } ] })");
   expect_damping(all, "paper", 2);
@@ -104,7 +104,7 @@ TEST(NamedCandidates, equal_relaxation_times_merge_first) {
 }
 
 // Fails if two children that dissipate equally (B/K² the same) do not leave the larger damping to the brake.
-TEST(NamedCandidates, a_tie_goes_to_the_larger_damping) {
+TEST(NamedCandidates, ATieGoesToTheLargerDamping) {
   for (const char* order : {R"({ "series": [ { "parallel": [ { "spring": 10 }, { "damper": 100 } ] },
                                              { "parallel": [ { "spring": 1 },  { "damper": 1 } ] } ] })",
                             R"({ "series": [ { "parallel": [ { "spring": 1 },  { "damper": 1 } ] },
@@ -114,7 +114,7 @@ TEST(NamedCandidates, a_tie_goes_to_the_larger_damping) {
 
 // Fails if the share is taken at ω → 0 where the device names a reference frequency: there the stiff element dissipates
 // more, since the soft one is held by its own damper.
-TEST(NamedCandidates, shares_are_compared_where_the_device_says) {
+TEST(NamedCandidates, SharesAreComparedWhereTheDeviceSays) {
   const char* const two = R"({ "series": [ { "parallel": [ { "spring": 1 }, { "damper": 1 } ] },
                                            { "parallel": [ { "spring": 10 }, { "damper": 0.1 } ] } ] })";
   Device device = late_device(100);
@@ -124,7 +124,7 @@ TEST(NamedCandidates, shares_are_compared_where_the_device_says) {
 }
 
 // Fails if a number on the command line is not taken as it is, or if it hides the named candidates.
-TEST(NamedCandidates, a_given_damping_is_taken) {
+TEST(NamedCandidates, AGivenDampingIsTaken) {
   const Decomposed all = decomposed(second_order, choosing(3.25));
   EXPECT_EQ(all.result->choice().damping, 3.25);
   EXPECT_EQ(all.result->candidates.size(), 7u);
@@ -132,14 +132,14 @@ TEST(NamedCandidates, a_given_damping_is_taken) {
 }
 
 // Fails if a name that nobody knows is taken for another.
-TEST(NamedCandidates, an_unknown_name_is_refused) {
+TEST(NamedCandidates, AnUnknownNameIsRefused) {
   const Decomposed all = decomposed(kelvin_structure, choosing("least-dissipative"));
   EXPECT_FALSE(all.result);
   EXPECT_TRUE(all.reports(DiagnosticCode::unknown_decomposition));
 }
 
 // Fails if the picture for people leaves out a candidate or what was chosen.
-TEST(NamedCandidates, text_names_every_candidate) {
+TEST(NamedCandidates, TextNamesEveryCandidate) {
   const Decomposed all = decomposed(second_order, choosing("zero-frequency"));
   const std::string text = candidates_text(*all.result, all.network) + chosen_text(*all.result);
   for (const Candidate& candidate : all.result->candidates) EXPECT_NE(text.find(candidate.name), std::string::npos);

@@ -61,7 +61,7 @@ NetworkRecipe recipe(Topology topology) {
 }
 
 // Fails if half the low-frequency viscosity in the brake is not enough for every estimator with |G| ≤ 1, or if less is.
-TEST(Passivity, half_viscosity_theorem) {
+TEST(Passivity, HalfViscosityTheorem) {
   EXPECT_EQ(first_failure(1, repetitions(100, 1000), recipe(Topology::tree), complaint_about_half_viscosity), "");
   EXPECT_EQ(first_failure(1, repetitions(100, 1000), recipe(Topology::graph), complaint_about_half_viscosity), "");
 }
@@ -99,13 +99,13 @@ std::string complaint_about_extra_damping(const Network& network) {
 }
 
 // Fails if the extra damping that makes any delay harmless is missed at some frequency, or overstated.
-TEST(Passivity, extra_damping_for_any_delay) {
+TEST(Passivity, ExtraDampingForAnyDelay) {
   EXPECT_EQ(first_failure(1, repetitions(40, 400), recipe(Topology::tree), complaint_about_extra_damping), "");
   EXPECT_EQ(first_failure(1, repetitions(40, 400), recipe(Topology::graph), complaint_about_extra_damping), "");
 }
 
 // Fails if position driven states are not delay-passive exactly when 2b ≥ b∞.
-TEST(Passivity, position_driven_needs_half_the_feedthrough) {
+TEST(Passivity, PositionDrivenNeedsHalfTheFeedthrough) {
   const LinearForm kelvin = linear_form(written_network(R"({ "parallel": [ { "spring": 1000 }, { "damper": 10 } ] })"));
   EXPECT_EQ(extra_damping_any_delay(kelvin, 5, StateInput::position, 0), 0);
   EXPECT_NEAR(extra_damping_any_delay(kelvin, 4, StateInput::position, 0), 2, 1e-14);
@@ -126,7 +126,7 @@ std::string complaint_about_negative_damping(const Network& network) {
 }
 
 // Fails if any candidate of any network is one that a brake cannot make, or lacks the property that it is named for.
-TEST(Passivity, candidates_keep_their_promises) {
+TEST(Passivity, CandidatesKeepTheirPromises) {
   EXPECT_EQ(first_failure(1, repetitions(100, 1000), recipe(Topology::tree), complaint_about_negative_damping), "");
   EXPECT_EQ(first_failure(1, repetitions(100, 1000), recipe(Topology::graph), complaint_about_negative_damping), "");
 }

@@ -31,7 +31,7 @@ void expect_regime(const Regime& regime, double damping, double feedthrough) {
 
 // Fails if Fig. 10 gives the brake anything but B1 stuck and B1 + B2 sliding, or takes B2, which is behind K, for a
 // port damper.
-TEST(Regimes, figure_10) {
+TEST(Regimes, Figure10) {
   const RegimeList list = regimes_of_whole(R"({"parallel": [{"damper": 2}, {"series": [{"spring": 300},
       {"parallel": [{"slip": 1}, {"damper": 3}]}]}]})");
   ASSERT_EQ(list.regimes.size(), 2u);
@@ -40,7 +40,7 @@ TEST(Regimes, figure_10) {
 }
 
 // Fails if a Kelvin element behind a slip brakes what slides.
-TEST(Regimes, kelvin_before_a_slip) {
+TEST(Regimes, KelvinBeforeASlip) {
   const RegimeList list =
       regimes_of_whole(R"({"series": [{"parallel": [{"spring": 500}, {"damper": 5}]}, {"slip": 0.4}]})");
   expect_regime(list.regimes[0], 5, 5);
@@ -48,7 +48,7 @@ TEST(Regimes, kelvin_before_a_slip) {
 }
 
 // Fails if dampers in series do not add their inverses, or the observer of the sliding network is not its own.
-TEST(Regimes, kelvins_about_a_slip) {
+TEST(Regimes, KelvinsAboutASlip) {
   const RegimeList list = regimes_of_whole(R"({"series": [{"parallel": [{"spring": 1000}, {"damper": 10}]},
       {"parallel": [{"slip": 2}, {"spring": 1}, {"damper": 0.1}]}]})");
   expect_regime(list.regimes[0], 10, 10);
@@ -56,7 +56,7 @@ TEST(Regimes, kelvins_about_a_slip) {
 }
 
 // Fails if slips outside of trees are not joined and removed as they are in trees.
-TEST(Regimes, bridge) {
+TEST(Regimes, Bridge) {
   const RegimeList list = regimes_of_whole(R"([
       {"damper": 2, "nodes": ["tool", "a"]}, {"damper": 4, "nodes": ["tool", "b"]}, {"slip": 1, "nodes": ["a", "b"]},
       {"damper": 3, "nodes": ["a", "ground"]}, {"damper": 6, "nodes": ["b", "ground"]}])");
@@ -66,7 +66,7 @@ TEST(Regimes, bridge) {
 }
 
 // Fails if many slips are enumerated, or their number is not said.
-TEST(Regimes, of_many_slips_are_counted) {
+TEST(Regimes, OfManySlipsAreCounted) {
   std::string text = R"({"spring": 100})";
   for (int i = 0; i < 12; ++i) text = R"({"series": [{"spring": 100}, {"parallel": [{"slip": 1}, )" + text + "]}]}";
   const RegimeList list = regimes_of_whole(text);
@@ -132,7 +132,7 @@ std::string departure_from_the_rules(const Network& network) {
 }
 
 // Fails if a regime's feedthrough is not that of the rules for rigid and constant parts.
-TEST(Regimes, follow_the_rules_of_rigid_and_constant_parts) {
+TEST(Regimes, FollowTheRulesOfRigidAndConstantParts) {
   testing::NetworkRecipe recipe;
   recipe.most_nodes = 9;
   recipe.most_slips = 6;

@@ -41,7 +41,7 @@ double force_of(const HandWritten& h, double position, double velocity) {
 }
 
 // Fails if an operation is not what its name says, or takes its operands the other way round.
-TEST(Evaluate, arithmetic) {
+TEST(Evaluate, Arithmetic) {
   for (const auto& [operation, expected] :
        {std::pair{Operation::add, 7.0}, {Operation::subtract, 3.0}, {Operation::multiply, 10.0}}) {
     HandWritten h;
@@ -51,7 +51,7 @@ TEST(Evaluate, arithmetic) {
 }
 
 // Fails if a value at the threshold is kept or one above it is not, on either side of zero.
-TEST(Evaluate, flush) {
+TEST(Evaluate, Flush) {
   HandWritten h;
   h.law.flush_threshold = 0.5;
   h.law.output.push_back({h.law.force, h.node(Operation::flush, h.read(h.law.position)), "", {}});
@@ -62,7 +62,7 @@ TEST(Evaluate, flush) {
 }
 
 // Fails if a force that relaxes is not what it is driven by and its decayed rest, which is nothing below the threshold.
-TEST(Evaluate, relax) {
+TEST(Evaluate, Relax) {
   for (const auto& [held, expected] : {std::pair{0.75, 4.5}, {0.5, 3.0}, {-0.75, 1.5}}) {
     HandWritten h;
     h.law.flush_threshold = 0.5;
@@ -84,14 +84,14 @@ double sum_in(std::size_t lanes) {
 }
 
 // Fails if a sum is added up in another order than the emitted code's, so that the two differ in their last bits.
-TEST(Evaluate, order_of_sums) {
+TEST(Evaluate, OrderOfSums) {
   EXPECT_EQ(sum_in(1), 0x1p-53);
   EXPECT_EQ(sum_in(2), 0x1p-52);
   EXPECT_EQ(sum_in(4), 0x1p-52);
 }
 
 // Fails if a scalar is not the same for every place of a vector.
-TEST(Evaluate, scalars_are_shared_by_all_places) {
+TEST(Evaluate, ScalarsAreSharedByAllPlaces) {
   HandWritten h;
   const VariableId terms = h.variable("terms", Role::local, 3);
   h.law.output.push_back(
@@ -113,7 +113,7 @@ HandWritten integrator() {
 }
 
 // Fails if states move before the command has left, or move twice for one sample.
-TEST(Evaluate, output_then_update) {
+TEST(Evaluate, OutputThenUpdate) {
   const HandWritten h = integrator();
   Evaluation<double> law(h.law);
   law.reset(1);
@@ -127,8 +127,8 @@ TEST(Evaluate, output_then_update) {
   EXPECT_EQ(law.stored_energy(), 7);
 }
 
-// Fails if an input or a force that is no number reaches a state, or leaves the motor anything but 0.
-TEST(Evaluate, what_is_not_finite_stays_outside) {
+// Fails if a NaN or infinite input or force reaches a state, or leaves the motor anything but 0.
+TEST(Evaluate, WhatIsNotFiniteStaysOutside) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const double max = std::numeric_limits<double>::max();
   const HandWritten h = integrator();
@@ -144,7 +144,7 @@ TEST(Evaluate, what_is_not_finite_stays_outside) {
 }
 
 // Fails if anything of the past survives reset().
-TEST(Evaluate, reset_forgets) {
+TEST(Evaluate, ResetForgets) {
   const HandWritten h = integrator();
   Evaluation<double> law(h.law);
   law.reset(7);
@@ -154,9 +154,9 @@ TEST(Evaluate, reset_forgets) {
   EXPECT_EQ(law.stored_energy(), 1);
 }
 
-// Fails if a brake that changes is not what is commanded, or a sample that is no number is not answered with the last
+// Fails if a brake that changes is not what is commanded, or a NaN or infinite sample is not answered with the last
 // safe one, which is the rest value after a reset.
-TEST(Evaluate, brake_that_changes) {
+TEST(Evaluate, BrakeThatChanges) {
   HandWritten h;
   h.law.brake = h.variable("damping", Role::local);
   h.law.last_brake = h.variable("last_damping", Role::state);

@@ -32,7 +32,7 @@ std::string branches(int count) {
 
 // Fails if a mode costs more than two multiplications and two additions a sample, many cost more guards than few, or
 // the command depends on their number.
-TEST(Law, costs_two_multiplications_and_additions_a_mode) {
+TEST(Law, CostsTwoMultiplicationsAndAdditionsAMode) {
   for (const int count : {1, 2, 8, 9, 100}) {
     const Compiled compiled(branches(count));
     const UpdateLaw& law = compiled.law();
@@ -47,7 +47,7 @@ TEST(Law, costs_two_multiplications_and_additions_a_mode) {
 }
 
 // Fails if the step of the paper's Fig. 5 needs more than two modes' worth and the terms of spring, feedthrough and Δu.
-TEST(Law, fig_5_cost) {
+TEST(Law, Fig5Cost) {
   const Compiled compiled(network_text(fig_5));
   const Cost output = cost_of(compiled.law(), compiled.law().output),
              update = cost_of(compiled.law(), compiled.law().update);
@@ -67,7 +67,7 @@ Choices choosing(std::variant<std::string, double> decomposition) {
 }
 
 // Fails if a law that is named for it reads a velocity all the same, were it only to correct the rounding of b∞.
-TEST(Law, velocity_free_reads_no_velocity) {
+TEST(Law, VelocityFreeReadsNoVelocity) {
   for (const ScalarType scalar : {ScalarType::float64, ScalarType::float32}) {
     Choices choices = choosing("velocity-free");
     choices.scalar = scalar;
@@ -77,7 +77,7 @@ TEST(Law, velocity_free_reads_no_velocity) {
 }
 
 // Fails if the text for people leaves out a coefficient or a phase.
-TEST(Law, text_shows_everything) {
+TEST(Law, TextShowsEverything) {
   const Compiled compiled(network_text(fig_5));
   const std::string text = to_text(compiled.law(), compiled->network);
   for (const Coefficient& coefficient : compiled.law().coefficients)
@@ -87,7 +87,7 @@ TEST(Law, text_shows_everything) {
 }
 
 // Fails if a relaxation that is over before the next sample, or digits that a float has not, go unsaid.
-TEST(Law, warns_of_what_a_sample_or_a_float_cannot_carry) {
+TEST(Law, WarnsOfWhatASampleOrAFloatCannotCarry) {
   Choices in_float;
   in_float.scalar = ScalarType::float32;
   const std::string fast = network_text(R"({ "series": [ { "damper": 1 }, { "spring": 600 } ] })");
@@ -198,7 +198,7 @@ NetworkRecipe small_graphs() {
 }
 
 // Fails if b u̇ + m is not the network's force for some candidate, scheme or drive of the states.
-TEST(Law, every_candidate_renders_the_network) {
+TEST(Law, EveryCandidateRendersTheNetwork) {
   for (const Scheme scheme : {Scheme::exact, Scheme::backward_euler})
     for (const StateInput input : {StateInput::position, StateInput::velocity})
       for (const double rate : {100.0, 1000.0}) {
@@ -234,7 +234,7 @@ std::string complaint_about_energy(const Network& network) {
 }
 
 // Fails if a position driven law gives back more energy than was put in (theory, section 6, energy lemma).
-TEST(Law, stores_no_more_than_the_work_done) {
+TEST(Law, StoresNoMoreThanTheWorkDone) {
   EXPECT_EQ(first_failure(1, repetitions(40, 400), small_graphs(), complaint_about_energy), "");
 }
 

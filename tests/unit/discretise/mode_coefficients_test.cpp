@@ -29,7 +29,7 @@ const Case cases[] = {{"3", "1e-15", "1e-3"},  {"1e4", "1e-5", "1e-5"}, {"0.5", 
                       {"7e-4", "1e3", "1e-3"}, {"12", "45", "1"},       {"2", "1e9", "1e-3"}};
 
 // Fails if e^{−λh} or what is made of it loses digits, at slow relaxations above all: 1 − a is tiny there.
-TEST(ModeCoefficients, exact_scheme) {
+TEST(ModeCoefficients, ExactScheme) {
   for (const Case& c : cases) {
     const Mode mode{Real(c.stiffness), Real(c.rate), 1, {}};
     const Real h(c.period);
@@ -44,7 +44,7 @@ TEST(ModeCoefficients, exact_scheme) {
 }
 
 // Fails if the backward Euler scheme is not the paper's: a = 1/(1 + λh), c = k a.
-TEST(ModeCoefficients, backward_euler_scheme) {
+TEST(ModeCoefficients, BackwardEulerScheme) {
   for (const Case& c : cases) {
     const Mode mode{Real(c.stiffness), Real(c.rate), 1, {}};
     const Real h(c.period);
@@ -58,7 +58,7 @@ TEST(ModeCoefficients, backward_euler_scheme) {
 
 // Fails if the drive is lost or doubled between position and velocity: a displacement Δu in one sample is a velocity
 // Δu/h.
-TEST(ModeCoefficients, the_drive_is_shared) {
+TEST(ModeCoefficients, TheDriveIsShared) {
   const Mode mode{8, 10, Real("0.25"), {}};
   const Real h("0.001");
   const Real whole = mode_coefficients(mode, Scheme::backward_euler, StateInput::position, h).position_gain;

@@ -67,12 +67,12 @@ std::string complaint(const std::string& network_name, const std::vector<std::pa
 }
 
 // Fails if an underscore at the end makes a reserved double one, or hides that two names are the same without it.
-TEST(Names, underscores_at_the_end) {
+TEST(Names, UnderscoresAtTheEnd) {
   EXPECT_EQ(complaint("ends", {{"a", "b"}, {"a_", "b_"}, {"c_", "d"}, {"c", "d_"}}), "");
 }
 
 // Fails if elements named like the beginnings of the law's own names take these over.
-TEST(Names, beginnings_of_the_laws_own_names) {
+TEST(Names, BeginningsOfTheLawsOwnNames) {
   const std::string long_tail(60, 'x');  // cuts the mode's name to "no_to_xxx…"
   for (const char* first : {"relaxed", "no", "last", "sampled", "half", "total", "sum", "loss", "threshold"}) {
     EXPECT_EQ(complaint("own", {{first, "energy"}, {first + std::string("_"), "gain"}}), "") << first;
@@ -81,25 +81,25 @@ TEST(Names, beginnings_of_the_laws_own_names) {
 }
 
 // Fails if a mode's name and a numbered one coincide.
-TEST(Names, numbers_behind_names) {
+TEST(Names, NumbersBehindNames) {
   EXPECT_EQ(complaint("numbers", {{"a", "b"}, {"a_b", "x2"}, {"A_", "b_2"}, {"c", "d_2"}, {"c_d", "e2"}}), "");
 }
 
 // Fails if very long names are cut so that they coincide.
-TEST(Names, very_long_names) {
+TEST(Names, VeryLongNames) {
   const std::string base(300, 'x');
   EXPECT_EQ(complaint("very_long", {{base + "1", base + "2"}, {base + "3", base + "4"}, {base + "5", base + "6"}}), "");
 }
 
 // Fails if a thousand elements with numbers for names do not have a thousand names in the code.
-TEST(Names, a_thousand_elements) {
+TEST(Names, AThousandElements) {
   std::vector<std::pair<std::string, std::string>> names;
   for (int i = 1; i <= 500; ++i) names.emplace_back("K" + std::to_string(i), "B" + std::to_string(i));
   EXPECT_EQ(complaint("thousand", names), "");
 }
 
 // Fails if the class itself can be called like one of its members: C++ takes that for a constructor.
-TEST(Names, the_class_and_its_members) {
+TEST(Names, TheClassAndItsMembers) {
   for (const char* name : {"K1_B1_gain", "K1_B1_force_", "K1_B1_energy_weight", "static_stiffness", "velocity_gain",
                            "last_position_", "sampled_", "threshold"}) {
     try {
@@ -125,7 +125,7 @@ std::string first_member_twice(const UpdateLaw& law) {
 }
 
 // Fails if a parameter can take a name that the law has for something of its own.
-TEST(Names, parameters_called_like_anything_in_the_law) {
+TEST(Names, ParametersCalledLikeAnythingInTheLaw) {
   const std::vector<std::string> beside = {"", R"("contact": { "at": 0.001 },)",
                                            R"("static": { "power": 2, "force": "1 N", "at": "5 mm" },)"};
   const std::vector<std::string> slips = {"", R"(, { "series": [ { "slip": 0.1 }, { "spring": 50 } ] })",
@@ -157,7 +157,7 @@ TEST(Names, parameters_called_like_anything_in_the_law) {
 }
 
 // Fails if unnamed elements in random networks, whose modes come from many elements, collide.
-TEST(Names, modes_of_many_elements) {
+TEST(Names, ModesOfManyElements) {
   NetworkRecipe recipe;
   recipe.topology = Topology::graph;
   recipe.most_nodes = 10;

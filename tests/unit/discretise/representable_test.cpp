@@ -19,7 +19,7 @@ bool overflows(const std::string& structure, const Choices& choices = {}) {
 }
 
 // Fails if a header with an infinite constant is written, or one whose constants are merely large is not.
-TEST(Representable, refuses_constants_beyond_the_scalar) {
+TEST(Representable, RefusesConstantsBeyondTheScalar) {
   EXPECT_TRUE(overflows(R"({ "parallel": [ { "spring": 1e308 }, { "spring": 1e308 } ] })"));
   EXPECT_FALSE(overflows(R"({ "parallel": [ { "spring": 8e307 }, { "spring": 8e307 } ] })"));
   Choices in_float;
@@ -37,7 +37,7 @@ std::optional<Compilation> compiled_whole(const SourceFile& source, ScalarType s
 }
 
 // Fails if a number that set() or coupled slips begin with is written that is none.
-TEST(Representable, refuses_what_follows_from_parameters_and_slips) {
+TEST(Representable, RefusesWhatFollowsFromParametersAndSlips) {
   const SourceFile tuned("thin.json", R"({"dashpot": 1, "name": "thin",
     "parameters": {"Y": {"value": 0.1, "tunable": true, "min": 0, "max": 1}},
     "network": {"series": [{"slip": "Y"}, {"damper": 1e-312}]}})");
@@ -51,7 +51,7 @@ TEST(Representable, refuses_what_follows_from_parameters_and_slips) {
 }
 
 // Fails if a parameter may be set to what the scalar cannot hold.
-TEST(Representable, refuses_ranges_beyond_the_scalar) {
+TEST(Representable, RefusesRangesBeyondTheScalar) {
   const SourceFile text(
       "far.json",
       R"({"dashpot": 1, "name": "far", "parameters": {"K": {"value": 1, "tunable": true, "min": 0, "max": 1e39}},
@@ -64,7 +64,7 @@ TEST(Representable, refuses_ranges_beyond_the_scalar) {
 }
 
 // Fails if a law whose constants are finite, but not what is proved of it, ends in anything but words.
-TEST(Representable, is_not_certified_beyond_a_double) {
+TEST(Representable, IsNotCertifiedBeyondADouble) {
   const SourceFile text(
       "far.json", R"({"dashpot": 1, "name": "far", "network": {"series": [{"spring": 1e308}, {"damper": 1e308}]}})");
   Diagnostics diagnostics;

@@ -79,7 +79,7 @@ void expect_bounded(double relaxation_rate, ScalarType scalar, ModeForm form) {
 }
 
 // Fails if forces in double are worse than the banner of the emitted code says, at any pace of relaxation.
-TEST(Rounding, double_keeps_its_bound) {
+TEST(Rounding, DoubleKeepsItsBound) {
   for (const double rate : {1.0, 30.0, 700.0, 5000.0})
     expect_bounded<double>(rate, ScalarType::float64, ModeForm::product);
   expect_bounded<double>(0.2, ScalarType::float64, ModeForm::delta);
@@ -87,13 +87,13 @@ TEST(Rounding, double_keeps_its_bound) {
 }
 
 // Fails if forces in float are worse than the banner says.
-TEST(Rounding, float_keeps_its_bound) {
+TEST(Rounding, FloatKeepsItsBound) {
   for (const double rate : {1.0, 30.0, 700.0}) expect_bounded<float>(rate, ScalarType::float32, ModeForm::delta);
   for (const double rate : {1e-3, 0.01}) expect_bounded<float>(rate, ScalarType::float32, ModeForm::compensated);
 }
 
 // Fails if the form of the update is not the cheapest whose bound is tolerable.
-TEST(Rounding, the_form_follows_from_the_bound) {
+TEST(Rounding, TheFormFollowsFromTheBound) {
   for (const ScalarType scalar : {ScalarType::float64, ScalarType::float32}) {
     const double tolerated = scalar == ScalarType::float64 ? 1e-12 : 1e-3;
     const ModeForm plain = scalar == ScalarType::float64 ? ModeForm::product : ModeForm::delta;
@@ -107,7 +107,7 @@ TEST(Rounding, the_form_follows_from_the_bound) {
 
 // Fails if a slow relaxation freezes in float: 100 s at 10 kHz loses 1e-6 of its force a sample, less than a float
 // resolves.
-TEST(Rounding, slow_relaxations_do_not_freeze_in_float) {
+TEST(Rounding, SlowRelaxationsDoNotFreezeInFloat) {
   Choices choices;
   choices.scalar = ScalarType::float32;
   choices.rate = 10000;
@@ -121,7 +121,7 @@ TEST(Rounding, slow_relaxations_do_not_freeze_in_float) {
 }
 
 // Fails if a state that decays becomes subnormal, where arithmetic is many times slower.
-TEST(Rounding, states_go_to_zero_before_they_are_subnormal) {
+TEST(Rounding, StatesGoToZeroBeforeTheyAreSubnormal) {
   for (const double rate : {30.0, 5000.0}) {
     const Compiled compiled = maxwell(rate, ScalarType::float64);
     Evaluation<double> law(compiled.law());

@@ -114,13 +114,13 @@ void expect_constant_time(const std::string& scalar) {
 
 // Fails if either compiler makes a jump, a call or a division of a phase's decisions, at -O2 or -O3: the time of a
 // sample would tell what it was, and the worst one be longer than those that were timed.
-TEST(ConstantTime, double_has_no_jump_but_its_loops) { expect_constant_time("double"); }
+TEST(ConstantTime, DoubleHasNoJumpButItsLoops) { expect_constant_time("double"); }
 
 // Fails likewise in float.
-TEST(ConstantTime, float_has_no_jump_but_its_loops) { expect_constant_time("float"); }
+TEST(ConstantTime, FloatHasNoJumpButItsLoops) { expect_constant_time("float"); }
 
 // Fails if the reader above sees no jumps where there are some.
-TEST(ConstantTime, is_not_what_is_emitted_otherwise) {
+TEST(ConstantTime, IsNotWhatIsEmittedOtherwise) {
   const TemporaryFolder folder;
   const EmittedFolder emitted = emit_headers(folder.path(), networks(folder.path()), "");
   for (const std::string& name : emitted.classes)

@@ -25,7 +25,7 @@ std::string header_of(const std::string& network, const Choices& choices = {}) {
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
 // Fails if a printed constant reads back as another number, in either scalar, or is no literal of that type.
-TEST(CppLiteral, reads_back_as_the_same_number) {
+TEST(CppLiteral, ReadsBackAsTheSameNumber) {
   std::mt19937_64 engine(1);
   for (int i = 0; i < 20000; ++i) {
     const std::uint64_t bits = engine();
@@ -41,15 +41,15 @@ TEST(CppLiteral, reads_back_as_the_same_number) {
 }
 
 // Fails if equal input does not give equal bytes.
-TEST(EmitCpp, repeats_itself) {
+TEST(EmitCpp, RepeatsItself) {
   const std::string network = testing::parallel_branches("many", 100);
   const std::string first = header_of(network);
   ASSERT_NE(first, "");
   EXPECT_EQ(header_of(network), first);
 }
 
-// Fails if a brake that changes is not what is returned, or not remembered for samples that are no numbers.
-TEST(EmitCpp, returns_a_brake_that_changes) {
+// Fails if a brake that changes is not what is returned, or not remembered for NaN or infinite samples.
+TEST(EmitCpp, ReturnsABrakeThatChanges) {
   const SourceFile file("test.json", R"({ "dashpot": 1, "name": "pad", "network": { "spring": 50 } })");
   Diagnostics diagnostics;
   Compilation c = *compile(file, {}, std::nullopt, diagnostics);
@@ -64,7 +64,7 @@ TEST(EmitCpp, returns_a_brake_that_changes) {
 }
 
 // Fails if the banner keeps back in what form modes are advanced in single precision, or how far that may be off.
-TEST(EmitCpp, states_form_and_error_bound_of_float) {
+TEST(EmitCpp, StatesFormAndErrorBoundOfFloat) {
   const std::string network =
       R"({ "dashpot": 1, "name": "pad", "network": { "series": [ { "spring": 50 }, { "damper": 5 } ] } })";
   Choices choices;
@@ -79,7 +79,7 @@ TEST(EmitCpp, states_form_and_error_bound_of_float) {
 
 // Fails if a banner promises exactness where a slip or a contact changes between two samples, or forgets it of linear
 // networks; or if it takes the damping that the brake makes beside slips for all that it makes.
-TEST(EmitCpp, says_of_slips_and_contacts_where_exactness_ends) {
+TEST(EmitCpp, SaysOfSlipsAndContactsWhereExactnessEnds) {
   const std::string exact = "a motion that is straight between two samples is answered exactly";
   const std::string but = exact + ", but for";
   const auto banner = [](const std::string& more, const std::string& beside) {
@@ -96,8 +96,8 @@ TEST(EmitCpp, says_of_slips_and_contacts_where_exactness_ends) {
   EXPECT_TRUE(contains(slip, "brake: makes b = 5 N·s/m of damping, behind slips also"));
 }
 
-// Fails if an input that is no number can pass unseen, or if what the force shows of itself is looked at again.
-TEST(EmitCpp, looks_at_what_the_force_does_not_show) {
+// Fails if a NaN or infinite input can pass unseen, or if what the force shows of itself is looked at again.
+TEST(EmitCpp, LooksAtWhatTheForceDoesNotShow) {
   const auto network = [](const char* structure) {
     return fmt::format(R"({{ "dashpot": 1, "name": "pad", "network": {} }})", structure);
   };
@@ -113,7 +113,7 @@ TEST(EmitCpp, looks_at_what_the_force_does_not_show) {
 }
 
 // Fails if a step goes through copies that only update() needs, or through two functions where one is enough.
-TEST(EmitCpp, fuses_a_step) {
+TEST(EmitCpp, FusesAStep) {
   const std::string text = header_of(testing::parallel_branches("some", 3));
   const std::size_t start = text.find("step(scalar position"), end = text.find("unsigned set(", start);
   ASSERT_NE(end, text.npos);
@@ -124,7 +124,7 @@ TEST(EmitCpp, fuses_a_step) {
 }
 
 // Fails if the emitted code does not read like the author's model.
-TEST(EmitCpp, takes_its_names_from_the_author) {
+TEST(EmitCpp, TakesItsNamesFromTheAuthor) {
   const std::string text = header_of(R"({ "dashpot": 1, "name": "pad", "source": "a paper", "title": "A pad",
     "network": { "series": [ { "spring": 50, "name": "skin" }, { "damper": 5, "name": "fat" } ] } })");
   EXPECT_TRUE(contains(text, "class pad {")) << text;
@@ -135,7 +135,7 @@ TEST(EmitCpp, takes_its_names_from_the_author) {
 
 // Fails if words of the author's can leave the comment that they stand in: by an end of line, or by a backslash before
 // one, which would take the next line into the comment or out of it.
-TEST(EmitCpp, keeps_the_authors_words_inside_comments) {
+TEST(EmitCpp, KeepsTheAuthorsWordsInsideComments) {
   const std::string words[] = {R"(ends with a backslash \\)",
                                R"(two\nlines)",
                                R"(carriage\rreturn)",
@@ -163,7 +163,7 @@ TEST(EmitCpp, keeps_the_authors_words_inside_comments) {
 }
 
 // Fails if a device's name ends the string that it stands in, or comes out as another name.
-TEST(EmitCpp, keeps_the_devices_name_inside_its_string) {
+TEST(EmitCpp, KeepsTheDevicesNameInsideItsString) {
   const std::string name = "a\nb\"; evil(); // \\ ?\?/ é";
   const SourceFile file("test.json", R"({ "dashpot": 1, "name": "words", "network": { "damper": 5 } })");
   Device device;
@@ -183,7 +183,7 @@ TEST(EmitCpp, keeps_the_devices_name_inside_its_string) {
 }
 
 // Fails if a word longer than a line, or blanks without end, are cut, run for ever, or are taken for a defect.
-TEST(EmitCpp, keeps_long_words_whole) {
+TEST(EmitCpp, KeepsLongWordsWhole) {
   const std::string link(300, 'x');
   for (const std::string& source : {link, "see " + link, "see " + link + " and " + link + " and more",
                                     link + std::string(200, ' '), std::string(300, ' ')}) {
@@ -197,7 +197,7 @@ TEST(EmitCpp, keeps_long_words_whole) {
 }
 
 // Fails if an element may bear a name that clashes with another of the emitted class.
-TEST(EmitCpp, finds_room_for_awkward_names) {
+TEST(EmitCpp, FindsRoomForAwkwardNames) {
   const testing::TemporaryFolder folder;
   for (const char* name :
        {"force", "damping", "threshold", "relaxed", "position", "velocity", "stored", "total", "lane", "scalar",

@@ -67,7 +67,7 @@ constexpr int dead_forces = 2;   // drive + 0 of each of Fig. 5's modes, where t
 // Fails if a step of the paper's Fig. 5 network costs more than two multiplications and two additions a mode, three
 // products and four sums for what all modes share (k0 u, Σc Δu and Δu itself, (b∞ − b) u̇, the modes' sum), or a
 // division.
-TEST(InstructionCount, of_figure_5_is_two_and_two_a_mode) {
+TEST(InstructionCount, OfFigure5IsTwoAndTwoAMode) {
   const TemporaryFolder folder;
   emit_headers(folder.path(), {DASHPOT_NETWORKS "/paper/second_order_maxwell.json"}, "");
   const Instructions count = instructions_of_step(folder.path(), "second_order_maxwell");
@@ -80,7 +80,7 @@ TEST(InstructionCount, of_figure_5_is_two_and_two_a_mode) {
 }
 
 // Fails if the banner states other numbers than the code has.
-TEST(InstructionCount, is_what_the_banner_states) {
+TEST(InstructionCount, IsWhatTheBannerStates) {
   const TemporaryFolder folder;
   emit_headers(folder.path(), {DASHPOT_NETWORKS "/paper/second_order_maxwell.json"}, "");
   const Instructions count = instructions_of_step(folder.path(), "second_order_maxwell");
@@ -102,7 +102,7 @@ TEST(InstructionCount, is_what_the_banner_states) {
 
 // Fails if a step of Fig. 10 costs more than 25 operations on floating-point numbers, checks of its inputs included, or
 // divides.
-TEST(InstructionCount, of_figure_10_is_25_at_most) {
+TEST(InstructionCount, OfFigure10Is25AtMost) {
   const TemporaryFolder folder;
   emit_headers(folder.path(), {DASHPOT_NETWORKS "/paper/visco_elasto_plastic.json"}, "");
   const Instructions count = instructions_of_step(folder.path(), "visco_elasto_plastic");
@@ -113,7 +113,7 @@ TEST(InstructionCount, of_figure_10_is_25_at_most) {
 }
 
 // Fails if ten springs with slips are not computed several at once.
-TEST(InstructionCount, of_ten_slips_is_vectorised) {
+TEST(InstructionCount, OfTenSlipsIsVectorised) {
   const TemporaryFolder folder;
   emit_headers(folder.path(), {DASHPOT_NETWORKS "/paper/maxwell_slip_ten.json"}, "");
   const Instructions count = instructions_of_step(folder.path(), "maxwell_slip_ten", vector_code);

@@ -63,13 +63,13 @@ void expect_full_registers(const char* scalar, const std::string& registers, int
 }
 
 // Fails if a loop laid out for NEON computes one double at a time there, calls or divides.
-TEST(Neon, computes_two_doubles_at_once) { expect_full_registers("double", ".2d", 2, 8); }
+TEST(Neon, ComputesTwoDoublesAtOnce) { expect_full_registers("double", ".2d", 2, 8); }
 
 // Fails likewise of four floats.
-TEST(Neon, computes_four_floats_at_once) { expect_full_registers("float", ".4s", 4, 16); }
+TEST(Neon, ComputesFourFloatsAtOnce) { expect_full_registers("float", ".4s", 4, 16); }
 
 // Fails if a compiler for AArch64 has anything to say about an emitted header.
-TEST(Neon, takes_every_header) {
+TEST(Neon, TakesEveryHeader) {
   const TemporaryFolder folder;
   const EmittedFolder emitted =
       emit_headers(folder.path() / "neon", network_files(folder.path()), "--vector neon --batch");

@@ -97,7 +97,7 @@ class StrictCompile : public ::testing::Test {
 };
 
 // Fails if a header needs another one before it, or a compiler has anything to say about it.
-TEST_F(StrictCompile, takes_every_header_alone) {
+TEST_F(StrictCompile, TakesEveryHeaderAlone) {
   for (const Compiler& compiler : compilers)
     for (const std::string& name : with_batches(emitted_.front().classes)) {
       const std::string line =
@@ -111,7 +111,7 @@ TEST_F(StrictCompile, takes_every_header_alone) {
 
 // Fails if calling any member, at any level of optimisation, warns, needs a symbol from elsewhere (memset for a reset
 // of many states, a run-time library for an object that is not initialised by constants), or uses much stack.
-TEST_F(StrictCompile, leaves_no_symbol_undefined) {
+TEST_F(StrictCompile, LeavesNoSymbolUndefined) {
   for (std::size_t i = 0; i < emitted_.size(); ++i) {
     const std::filesystem::path caller = folder_->path() / "caller.cpp", object = folder_->path() / "caller.o";
     write_text(caller, caller_of(emitted_[i]));
@@ -133,14 +133,14 @@ TEST_F(StrictCompile, leaves_no_symbol_undefined) {
 }
 
 // Fails likewise for a batch, but that storage of its own is put to rest before a program begins.
-TEST_F(StrictCompile, leaves_no_symbol_of_a_batch_undefined) {
+TEST_F(StrictCompile, LeavesNoSymbolOfABatchUndefined) {
   for (const char* name : {"second_order_maxwell", "twenty_branches"})
     expect_no_symbol_undefined(folder_->path(), emitted_.front().path, caller_of_batch(name), name,
                                {"-O0", "-O2", "-O3"});
 }
 
 // Fails likewise where slips of each point are solved together; at -O0 clang clears whatever array by memset.
-TEST(StrictBatch, of_coupled_slips_leaves_no_symbol_undefined) {
+TEST(StrictBatch, OfCoupledSlipsLeavesNoSymbolUndefined) {
   const TemporaryFolder folder;
   const EmittedFolder emitted = emit_headers(
       folder.path() / "out",

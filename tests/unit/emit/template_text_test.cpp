@@ -25,12 +25,12 @@ Filled filled(const std::string& shape, const CodeModel& model) {
 bool has_part(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
 // Fails if a field is not put where its name stands, as often as it stands there.
-TEST(TemplateText, puts_fields_in_their_places) {
+TEST(TemplateText, PutsFieldsInTheirPlaces) {
   EXPECT_EQ(filled("a {{x}} b {{x}}{{y}}\n", {{{"x", "1"}, {"y", "2"}}, {}}).text, "a 1 b 12\n");
 }
 
 // Fails if the lines of a list are not repeated for each entry, in order, or leave lines of their own behind.
-TEST(TemplateText, repeats_a_block_for_every_entry) {
+TEST(TemplateText, RepeatsABlockForEveryEntry) {
   CodeModel model;
   model.fields["x"] = "file";
   model.lists["points"] = {{{"n", "1"}}, {{"n", "2"}}};
@@ -39,41 +39,41 @@ TEST(TemplateText, repeats_a_block_for_every_entry) {
 }
 
 // Fails if an empty list leaves anything.
-TEST(TemplateText, leaves_nothing_of_an_empty_list) {
+TEST(TemplateText, LeavesNothingOfAnEmptyList) {
   EXPECT_EQ(filled("a\n{{#none}}\n  {{n}}\n{{/none}}\nb\n", {{}, {{"none", {}}}}).text, "a\nb\n");
 }
 
 // Fails if the file's field shadows the entry's of the same name.
-TEST(TemplateText, takes_an_entrys_field_before_the_files) {
+TEST(TemplateText, TakesAnEntrysFieldBeforeTheFiles) {
   EXPECT_EQ(filled("{{x}}\n{{#l}}\n{{x}}\n{{/l}}\n", {{{"x", "file"}}, {{"l", {{{"x", "entry"}}}}}}).text,
             "file\nentry\n");
 }
 
 // Fails if what a field holds is itself taken for a template: networks are the user's, and may hold braces.
-TEST(TemplateText, does_not_read_what_it_has_filled_in) {
+TEST(TemplateText, DoesNotReadWhatItHasFilledIn) {
   EXPECT_EQ(filled("{{x}}\n", {{{"x", "{{y}} {{#l}}"}}, {}}).text, "{{y}} {{#l}}\n");
 }
 
 // Fails if a last line without an end is lost.
-TEST(TemplateText, keeps_a_last_line_without_end) {
+TEST(TemplateText, KeepsALastLineWithoutEnd) {
   EXPECT_EQ(filled("a\n{{x}}", {{{"x", "b"}}, {}}).text, "a\nb");
   EXPECT_EQ(filled("", {}).text, "");
 }
 
 // Fails if an empty field leaves blanks at the end of a line.
-TEST(TemplateText, leaves_no_blanks_at_the_end_of_a_line) {
+TEST(TemplateText, LeavesNoBlanksAtTheEndOfALine) {
   EXPECT_EQ(filled("a {{x}}\n  {{x}}\n\n  b\n", {{{"x", ""}}, {}}).text, "a\n\n\n  b\n");
 }
 
 // Fails if a misspelt placeholder is passed over, or not shown in its place.
-TEST(TemplateText, refuses_an_unknown_placeholder) {
+TEST(TemplateText, RefusesAnUnknownPlaceholder) {
   const Filled result = filled("one\n  two {{wrong}}\n", {});
   EXPECT_FALSE(result.text);
   EXPECT_TRUE(has_part(result.messages, "shape.in:2:7: error: unknown placeholder 'wrong'")) << result.messages;
 }
 
 // Fails if a misspelt list, or one that is not closed, is passed over.
-TEST(TemplateText, refuses_an_unknown_or_open_list) {
+TEST(TemplateText, RefusesAnUnknownOrOpenList) {
   const Filled unknown = filled("{{#wrong}}\n{{/wrong}}\n", {});
   EXPECT_FALSE(unknown.text);
   EXPECT_TRUE(has_part(unknown.messages, "shape.in:1:1: error: unknown placeholder 'wrong'")) << unknown.messages;
@@ -81,14 +81,14 @@ TEST(TemplateText, refuses_an_unknown_or_open_list) {
 }
 
 // Fails if braces that never close swallow the rest of the file.
-TEST(TemplateText, refuses_an_open_placeholder) {
+TEST(TemplateText, RefusesAnOpenPlaceholder) {
   const Filled result = filled("a {{x\nb }}\n", {{{"x", "1"}}, {}});
   EXPECT_FALSE(result.text);
   EXPECT_TRUE(has_part(result.messages, "shape.in:1:3: error: unknown placeholder")) << result.messages;
 }
 
 // Fails if a template that drops a field or a list is accepted: a banner without its facts, a class without its states.
-TEST(TemplateText, refuses_to_leave_a_field_or_list_out) {
+TEST(TemplateText, RefusesToLeaveAFieldOrListOut) {
   const Filled result = filled("{{x}}\n", {{{"x", "1"}, {"digest", "2"}}, {{"states", {}}}});
   EXPECT_FALSE(result.text);
   EXPECT_TRUE(has_part(result.messages, "placeholder 'digest' is not used")) << result.messages;
@@ -96,13 +96,13 @@ TEST(TemplateText, refuses_to_leave_a_field_or_list_out) {
 }
 
 // Fails if all that is wrong is not told at once.
-TEST(TemplateText, tells_everything_that_is_wrong) {
+TEST(TemplateText, TellsEverythingThatIsWrong) {
   const Filled result = filled("{{a}}\n{{b}}\n", {{{"c", ""}}, {}});
   for (const char* name : {"'a'", "'b'", "'c'"}) EXPECT_TRUE(has_part(result.messages, name)) << result.messages;
 }
 
 // Fails if the built-in templates are not those of the folder templates/, byte for byte.
-TEST(Templates, are_built_in) {
+TEST(Templates, AreBuiltIn) {
   for (const auto& entry : std::filesystem::directory_iterator(DASHPOT_TEMPLATES)) {
     if (entry.path().extension() != ".in") continue;
     Diagnostics diagnostics;
@@ -113,7 +113,7 @@ TEST(Templates, are_built_in) {
 }
 
 // Fails if a folder of one's own is not taken in place of the built-in templates, or if its lack of one is not told.
-TEST(Templates, may_come_from_a_folder) {
+TEST(Templates, MayComeFromAFolder) {
   const testing::TemporaryFolder folder;
   testing::write_text(folder.path() / "network.hpp.in", "mine\n");
   Diagnostics diagnostics;

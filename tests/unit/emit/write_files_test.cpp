@@ -23,7 +23,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
 }
 
 // Fails if files are not written as they are, or a folder that is missing is not made.
-TEST(WriteFiles, writes_all_and_makes_the_folder) {
+TEST(WriteFiles, WritesAllAndMakesTheFolder) {
   const testing::TemporaryFolder folder;
   const fs::path target = folder.path() / "a" / "b";
   Diagnostics diagnostics;
@@ -33,7 +33,7 @@ TEST(WriteFiles, writes_all_and_makes_the_folder) {
 }
 
 // Fails if an older, longer file shines through, or half-written ones are left beside it.
-TEST(WriteFiles, replaces_whole_files) {
+TEST(WriteFiles, ReplacesWholeFiles) {
   const testing::TemporaryFolder folder;
   Diagnostics diagnostics;
   ASSERT_TRUE(write_files(folder.path().string(), {{"x.hpp", "a long text\n"}}, diagnostics));
@@ -43,7 +43,7 @@ TEST(WriteFiles, replaces_whole_files) {
 }
 
 // Fails if one file that cannot be written does not keep all others from being replaced.
-TEST(WriteFiles, writes_none_where_one_cannot_be_written) {
+TEST(WriteFiles, WritesNoneWhereOneCannotBeWritten) {
   const testing::TemporaryFolder folder;
   testing::write_text(folder.path() / "good.hpp", "before\n");
   fs::create_directory(folder.path() / "bad.hpp");
@@ -55,7 +55,7 @@ TEST(WriteFiles, writes_none_where_one_cannot_be_written) {
 }
 
 // Fails if folders that were made for files which cannot be written stay, or one that was there before goes.
-TEST(WriteFiles, leaves_no_folder_behind) {
+TEST(WriteFiles, LeavesNoFolderBehind) {
   const testing::TemporaryFolder folder;
   fs::create_directory(folder.path() / "before");
   fs::create_directory(folder.path() / "bad.hpp");
@@ -66,7 +66,7 @@ TEST(WriteFiles, leaves_no_folder_behind) {
 }
 
 // Fails if a link to a file becomes a file of its own.
-TEST(WriteFiles, follows_links) {
+TEST(WriteFiles, FollowsLinks) {
   const testing::TemporaryFolder folder;
   testing::write_text(folder.path() / "far.csv", "before\n");
   fs::create_symlink("far.csv", folder.path() / "near.csv");
@@ -77,7 +77,7 @@ TEST(WriteFiles, follows_links) {
 }
 
 // Fails if a pipe or a device, /dev/stdout for one, is replaced by a file.
-TEST(WriteFiles, writes_into_pipes) {
+TEST(WriteFiles, WritesIntoPipes) {
   const testing::TemporaryFolder folder;
   const std::string pipe = (folder.path() / "pipe").string();
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -92,7 +92,7 @@ TEST(WriteFiles, writes_into_pipes) {
 }
 
 // Fails if a folder that cannot be made is not reported.
-TEST(WriteFiles, reports_a_folder_that_cannot_be_made) {
+TEST(WriteFiles, ReportsAFolderThatCannotBeMade) {
   const testing::TemporaryFolder folder;
   testing::write_text(folder.path() / "file", "");
   Diagnostics diagnostics;

@@ -66,25 +66,25 @@ NetworkRecipe graphs() {
 }
 
 // Fails if going to the generalised Kelvin form and back changes a parameter by more than 1e-12.
-TEST(Interconversion, returns_to_the_maxwell_form) {
+TEST(Interconversion, ReturnsToTheMaxwellForm) {
   EXPECT_EQ(first_failure(1, repetitions(150, 2000), {}, complaint_about_round_trip), "");
   EXPECT_EQ(first_failure(1, repetitions(150, 2000), graphs(), complaint_about_round_trip), "");
 }
 
 // Fails if s/D(s), taken twice, is not D(s).
-TEST(Interconversion, reciprocal_is_its_own_inverse) {
+TEST(Interconversion, ReciprocalIsItsOwnInverse) {
   EXPECT_EQ(first_failure(3001, repetitions(150, 2000), {}, complaint_about_reciprocal), "");
   EXPECT_EQ(first_failure(3001, repetitions(150, 2000), graphs(), complaint_about_reciprocal), "");
 }
 
 // Fails if the Kelvin elements in series do not yield as the network does.
-TEST(Interconversion, kelvin_form_has_the_compliance_of_the_network) {
+TEST(Interconversion, KelvinFormHasTheComplianceOfTheNetwork) {
   EXPECT_EQ(first_failure(6001, repetitions(150, 2000), {}, complaint_about_compliance), "");
   EXPECT_EQ(first_failure(6001, repetitions(150, 2000), graphs(), complaint_about_compliance), "");
 }
 
 // Fails if Kelvin elements written in series are not found again: K and B of each, the lone spring, the lone damper.
-TEST(Interconversion, finds_the_kelvin_elements_again) {
+TEST(Interconversion, FindsTheKelvinElementsAgain) {
   const KelvinForm form = kelvin_form(linear_form(written_network(R"({ "series": [
       { "parallel": [ { "spring": 1000 }, { "damper": 10 } ] },
       { "parallel": [ { "spring": 1 }, { "damper": 0.5 } ] },

@@ -9,7 +9,7 @@ using namespace dashpot::testing;
 using namespace dashpot::compiler;
 
 // Fails if Maxwell elements of one relaxation time stay apart, or if their stiffnesses do not add.
-TEST(Merging, adds_equal_relaxation_times) {
+TEST(Merging, AddsEqualRelaxationTimes) {
   const LinearForm form = form_of(R"({ "parallel": [ { "series": [ { "spring": 2 }, { "damper": 1 } ] },
                                                      { "series": [ { "spring": 6 }, { "damper": 3 } ] } ] })");
   ASSERT_EQ(form.modes.size(), 1u);
@@ -29,7 +29,7 @@ LinearForm one_mode(const Mode& mode) {
 }
 
 // Fails if rates within 1e-12 do not merge, or if merging changes D at either end of the frequency axis.
-TEST(Merging, keeps_both_ends_of_the_spectrum) {
+TEST(Merging, KeepsBothEndsOfTheSpectrum) {
   const Mode first = mode("3", "2", 0), second = mode("5", "2.0000000000015", 1);
   const LinearForm both = in_parallel(one_mode(first), one_mode(second));
   ASSERT_EQ(both.modes.size(), 1u);
@@ -39,12 +39,12 @@ TEST(Merging, keeps_both_ends_of_the_spectrum) {
 }
 
 // Fails if modes are merged that a careful experiment can tell apart.
-TEST(Merging, leaves_different_rates_alone) {
+TEST(Merging, LeavesDifferentRatesAlone) {
   EXPECT_EQ(in_parallel(one_mode(mode("3", "2", 0)), one_mode(mode("5", "2.000000000003", 1))).modes.size(), 2u);
 }
 
 // Fails if the cross arm of a balanced bridge, in which nothing ever moves, leaves a mode.
-TEST(Merging, drops_what_the_tool_cannot_see) {
+TEST(Merging, DropsWhatTheToolCannotSee) {
   const LinearForm form =
       form_of(R"([ { "spring": 2, "nodes": ["tool", "a"] },   { "spring": 4, "nodes": ["tool", "b"] },
                                        { "damper": 3, "nodes": ["a", "ground"] }, { "damper": 6, "nodes": ["b", "ground"] },
@@ -55,7 +55,7 @@ TEST(Merging, drops_what_the_tool_cannot_see) {
 }
 
 // Fails if two Kelvin elements of one relaxation time in series leave a mode besides their common spring and damper.
-TEST(Merging, cancels_equal_retardation_times) {
+TEST(Merging, CancelsEqualRetardationTimes) {
   const LinearForm form = form_of(R"({ "series": [ { "parallel": [ { "spring": 2 }, { "damper": 1 } ] },
                                                    { "parallel": [ { "spring": 6 }, { "damper": 3 } ] } ] })");
   EXPECT_TRUE(form.modes.empty());

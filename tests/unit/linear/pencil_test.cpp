@@ -91,7 +91,7 @@ std::string complaint_about(const Nodes& nodes, Random& random) {
 }
 
 // Fails if the modes of nodes joined in any way do not add up to the response of all, whatever the bandwidth is.
-TEST(Pencil, adds_up_to_the_response) {
+TEST(Pencil, AddsUpToTheResponse) {
   Random random(23);
   for (const Shape& shape : shapes)
     for (std::size_t i = 0; i < repetitions(30, 1000); ++i) {
@@ -102,7 +102,7 @@ TEST(Pencil, adds_up_to_the_response) {
 }
 
 // Fails if modes of one rate are lost or counted twice.
-TEST(Pencil, keeps_modes_of_one_rate) {
+TEST(Pencil, KeepsModesOfOneRate) {
   Random random(24);
   for (const Shape& shape : shapes)
     for (const Index size : {2, 3, 9, 16}) {
@@ -112,7 +112,7 @@ TEST(Pencil, keeps_modes_of_one_rate) {
 }
 
 // Fails if nodes that springs alone hold, or dampers alone, have other than the eigenvalues 1 and 0.
-TEST(Pencil, tells_springs_from_dampers) {
+TEST(Pencil, TellsSpringsFromDampers) {
   Random random(25);
   for (const Shape& shape : shapes) {
     const RealMatrix matrix = random_nodes(shape, 12, true, random).damping, none = RealMatrix::Zero(12, 12);

@@ -32,7 +32,7 @@ std::string ladder(std::size_t inner_nodes) {
 }
 
 // Fails if digits that are lost to cancellation come out as forces, or values that are resolved are refused.
-TEST(Reach, ends_where_values_are_too_far_apart) {
+TEST(Reach, EndsWhereValuesAreTooFarApart) {
   const auto springs = [](const char* soft) {
     return fmt::format(R"("network": {{ "series": [ {{ "spring": {} }}, {{ "spring": 1e12 }}, {{ "damper": 1 }} ] }})",
                        soft);
@@ -45,7 +45,7 @@ TEST(Reach, ends_where_values_are_too_far_apart) {
 }
 
 // Fails if a part of very many nodes is begun, or one that is just large is refused.
-TEST(Reach, ends_where_a_part_has_too_many_nodes) {
+TEST(Reach, EndsWhereAPartHasTooManyNodes) {
   EXPECT_EQ(said_of(ladder(40)), "");
   EXPECT_NE(said_of(ladder(most_inner_nodes + 1)).find("has 401 inner nodes; at most 400"), std::string::npos);
 }

@@ -19,21 +19,21 @@ std::string refusal(const std::string& structure) {
 }
 
 // Fails if a tool that nothing holds gets a force.
-TEST(Refusal, of_a_tool_without_connection_to_ground) {
+TEST(Refusal, OfAToolWithoutConnectionToGround) {
   const std::string text =
       refusal(R"([ { "spring": 1, "nodes": ["tool", "a"] }, { "damper": 1, "nodes": ["b", "ground"] } ])");
   EXPECT_NE(text.find("[ends-not-connected]"), std::string::npos) << text;
 }
 
 // Fails if a part that floats free becomes a singular matrix instead of a message.
-TEST(Refusal, of_a_part_tied_to_nothing) {
+TEST(Refusal, OfAPartTiedToNothing) {
   const std::string text = refusal(R"([ { "spring": 1, "nodes": ["tool", "ground"] },
                                         { "spring": 1, "nodes": ["a", "b"] }, { "damper": 2, "nodes": ["a", "b"] } ])");
   EXPECT_NE(text.find("[floating-part]"), std::string::npos) << text;
 }
 
 // Fails if a network without an end at the tool is accepted.
-TEST(Refusal, of_a_network_beside_the_tool) {
+TEST(Refusal, OfANetworkBesideTheTool) {
   const std::string text = refusal(R"([ { "spring": 1, "nodes": ["a", "ground"] } ])");
   EXPECT_NE(text.find("[end-unused]"), std::string::npos) << text;
 }

@@ -13,7 +13,7 @@ using namespace dashpot::testing;
 using namespace dashpot::compiler;
 
 // Fails if a lone spring is anything but itself.
-TEST(Structure, one_spring) {
+TEST(Structure, OneSpring) {
   const LinearForm form = form_of(R"({ "spring": 12.5 })");
   EXPECT_EQ(form.static_stiffness, 12.5);
   EXPECT_EQ(form.feedthrough_damping, 0);
@@ -21,7 +21,7 @@ TEST(Structure, one_spring) {
 }
 
 // Fails if a lone damper is anything but itself.
-TEST(Structure, one_damper) {
+TEST(Structure, OneDamper) {
   const LinearForm form = form_of(R"({ "damper": 12.5 })");
   EXPECT_EQ(form.static_stiffness, 0);
   EXPECT_EQ(form.feedthrough_damping, 12.5);
@@ -29,7 +29,7 @@ TEST(Structure, one_damper) {
 }
 
 // Fails if a network whose elements are all zero is anything but nothing.
-TEST(Structure, zero_spring) {
+TEST(Structure, ZeroSpring) {
   const LinearForm form = form_of(R"({ "spring": 0 })");
   EXPECT_EQ(form.static_stiffness, 0);
   EXPECT_EQ(form.feedthrough_damping, 0);
@@ -37,7 +37,7 @@ TEST(Structure, zero_spring) {
 }
 
 // Fails if rounding leaves a mode where nodes are held by springs only or by dampers only.
-TEST(Structure, one_kind_of_element_has_no_modes) {
+TEST(Structure, OneKindOfElementHasNoModes) {
   const LinearForm springs = form_of(R"({ "series": [ { "spring": 1 }, { "spring": 3 }, { "spring": 7 } ] })");
   EXPECT_TRUE(springs.modes.empty());
   EXPECT_EQ(springs.feedthrough_damping, 0);
@@ -49,7 +49,7 @@ TEST(Structure, one_kind_of_element_has_no_modes) {
 }
 
 // Fails if the paper's second-order model (Fig. 2e with the numbers of Fig. 5) loses its parameters.
-TEST(Structure, parallel_branches_keep_their_parameters) {
+TEST(Structure, ParallelBranchesKeepTheirParameters) {
   const LinearForm form = form_of(R"({ "parallel": [ { "series": [ { "damper": 5 }, { "spring": 12 } ] },
                                                      { "series": [ { "damper": 6 }, { "spring": 10 } ] },
                                                      { "spring": 5 } ] })");
@@ -70,7 +70,7 @@ std::string branches(int count) {
 }
 
 // Fails if a thousand Maxwell branches are not a thousand independent modes, each with the constants of its branch.
-TEST(Structure, a_thousand_branches) {
+TEST(Structure, AThousandBranches) {
   const Network network = written_network(branches(1000));
   std::vector<std::size_t> all(network.elements.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -86,7 +86,7 @@ TEST(Structure, a_thousand_branches) {
 }
 
 // Fails if `nodal` states were told that a mode's drive comes through springs when it comes through dampers.
-TEST(Structure, modes_know_what_drives_them) {
+TEST(Structure, ModesKnowWhatDrivesThem) {
   const LinearForm damper_at_tool = form_of(R"({ "series": [ { "damper": 5 }, { "spring": 50 } ] })");
   const LinearForm spring_at_tool = form_of(R"({ "series": [ { "spring": 50 }, { "damper": 5 } ] })");
   EXPECT_LT(abs(damper_at_tool.modes.at(0).spring_share), rounding);

@@ -76,7 +76,7 @@ TEST(Farewell, WithoutAConfirmationIsToldSo) {
   EXPECT_EQ(device.written().size(), 50u + 501) << "half a second long";
 }
 
-// Broken, a slow link could not be given more time, or a wait that is no number would be for ever.
+// Broken, a slow link could not be given more time, or a wait of NaN seconds would be for ever.
 TEST(Farewell, WaitsAsLongAsItIsTold) {
   for (const double farewell : {0.5, 1.0}) {
     telling_device slow(scripted_description());

@@ -241,7 +241,7 @@ TEST(Device, LateSamplesComeLate) {
   EXPECT_NEAR(late[12].sample.position, 0.1 * 0.033, 1e-6);
 }
 
-// A demand that is no number would reach motor or brake.
+// A NaN or infinite demand would reach motor or brake.
 TEST(Device, DemandsThatAreNoNumbersAreRefusedSafely) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();

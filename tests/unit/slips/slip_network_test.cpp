@@ -240,7 +240,7 @@ TEST(SlipNetwork, TakesNoMoreOperationsThanStated) {
   EXPECT_LT(most_patterns, 40);
 }
 
-// A finite force would come with a state that is not, and never heal; or a sample that is no number would not end.
+// A finite force would come with a state that is not, and never heal; or a NaN or infinite sample would not end.
 TEST(SlipNetwork, EndsWithAnyInput) {
   Random random(8);
   const double huge = std::numeric_limits<double>::max(), infinite = std::numeric_limits<double>::infinity();

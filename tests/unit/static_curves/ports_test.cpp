@@ -77,7 +77,7 @@ TEST(Ports, AddUp) {
   }
 }
 
-// If this fails, a sample that is no number reaches a port, or one that is makes another answer after it.
+// If this fails, a NaN or infinite sample reaches a port, or one that is makes another answer after it.
 TEST(Ports, RefuseWhatIsNoNumber) {
   Random random(3);
   const Compilation c = compiled(side_by_side(random_port(random, 0) + ", " + random_port(random, 1) + ", " +

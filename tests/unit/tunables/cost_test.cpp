@@ -8,7 +8,7 @@ namespace dashpot::testing {
 namespace {
 
 // What a change costs would be most of a period on a board: a standard solid's constants, and a Kelvin's.
-TEST(TunableCost, of_constants_is_small) {
+TEST(TunableCost, OfConstantsIsSmall) {
   const auto cost = [](const char* network) {
     const TunableLaw compiled(network);
     return compiler::operations_of(compiler::cost_of(compiled.law(), compiled.law().tune));

@@ -99,7 +99,7 @@ const char* const strict =
     "-Wdouble-promotion -Wfloat-conversion -Wshadow -Wvla -Walloca -Werror";
 
 // What `simulate` shows would not be what runs in the loop.
-TEST(TunableEmission, has_the_bits_of_evaluate) {
+TEST(TunableEmission, HasTheBitsOfEvaluate) {
   const TemporaryFolder folder;
   const std::uint64_t count = repetitions(20, 400);
   std::string includes = "#include \"emitted_driver.hpp\"\n", calls;
@@ -128,7 +128,7 @@ TEST(TunableEmission, has_the_bits_of_evaluate) {
 }
 
 // A board would lack what the code asks for, or a global object would be made before main().
-TEST(TunableEmission, compiles_strictly_and_leaves_no_symbol_undefined) {
+TEST(TunableEmission, CompilesStrictlyAndLeavesNoSymbolUndefined) {
   const TemporaryFolder folder;
   std::string source;
   for (std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 24, 28}) {
@@ -160,7 +160,7 @@ TEST(TunableEmission, compiles_strictly_and_leaves_no_symbol_undefined) {
 
 // A global law would be made while the program starts, after others that use it: no division by zero is a constant. All
 // kinds, and a branch whose damper is nothing to begin with.
-TEST(TunableEmission, is_made_by_constants_alone) {
+TEST(TunableEmission, IsMadeByConstantsAlone) {
   const TemporaryFolder folder;
   const char* const nothing = R"({ "dashpot": 1, "name": "tunable_0",
     "parameters": { "B": { "value": 0, "tunable": true, "min": 0, "max": 5 } },
@@ -179,7 +179,7 @@ TEST(TunableEmission, is_made_by_constants_alone) {
 }
 
 // A step would take as long as a processor's division, which on a board is a call.
-TEST(TunableEmission, divides_only_in_set_and_reset) {
+TEST(TunableEmission, DividesOnlyInSetAndReset) {
   const TemporaryFolder folder;
   std::string source;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {

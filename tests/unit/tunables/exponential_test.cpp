@@ -36,11 +36,11 @@ void expect_within_three_units() {
 }
 
 // A relaxation set at run time would differ from the law by more than rounding.
-TEST(Exponential, is_within_three_units_of_roundoff_in_double) { expect_within_three_units<double>(); }
-TEST(Exponential, is_within_three_units_of_roundoff_in_float) { expect_within_three_units<float>(); }
+TEST(Exponential, IsWithinThreeUnitsOfRoundoffInDouble) { expect_within_three_units<double>(); }
+TEST(Exponential, IsWithinThreeUnitsOfRoundoffInFloat) { expect_within_three_units<float>(); }
 
 // A limit would end in NaN, which no later set() would take out of the states, or a NaN would go unnoticed.
-TEST(Exponential, is_total) {
+TEST(Exponential, IsTotal) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(mean_decay(0.0), 1);
   EXPECT_EQ(mean_decay(-1.0), 1);
@@ -52,7 +52,7 @@ TEST(Exponential, is_total) {
 }
 
 // A constant of the emitted code could not be computed before it runs, and with it no object initialised by constants.
-TEST(Exponential, is_a_constant_expression) {
+TEST(Exponential, IsAConstantExpression) {
   static_assert(mean_decay(0.0) == 1 && mean_decay(1.0) > 0.632 && mean_decay(1.0) < 0.6322);
   constexpr double by_the_compiler = mean_decay(0.3);
   volatile double argument = 0.3;
@@ -60,7 +60,7 @@ TEST(Exponential, is_a_constant_expression) {
 }
 
 // A board would render another network than the one that was simulated.
-TEST(Exponential, has_the_same_bits_on_a_cortex_m) {
+TEST(Exponential, HasTheSameBitsOnACortexM) {
   ASSERT_NE(std::string(DASHPOT_BOARD_PROGRAM), "") << "arm-none-eabi-g++ is not installed (package gcc-arm-none-eabi)";
   ASSERT_NE(std::string(DASHPOT_QEMU), "") << "qemu-system-arm is not installed (package qemu-system-arm)";
   const Finished board = run_command(

@@ -33,7 +33,7 @@ std::string repeated(int count, const char* what) {
 void expect(const std::string& said, const std::string& part) { EXPECT_NE(said.find(part), said.npos) << said; }
 
 // A network too large for set() would be compiled into one that takes longer than anybody was told.
-TEST(TunableRefusal, of_more_than_there_is_room_for) {
+TEST(TunableRefusal, OfMoreThanThereIsRoomFor) {
   EXPECT_EQ(said_of(repeated(40, "damper")), "compiled\n");
   EXPECT_EQ(said_of(repeated(8, "slip")), "compiled\n");
   const std::string many = said_of(repeated(9, "slip"));
@@ -43,7 +43,7 @@ TEST(TunableRefusal, of_more_than_there_is_room_for) {
 }
 
 // A state that follows an estimate would turn a slider into a source of energy.
-TEST(TunableRefusal, of_states_that_follow_a_velocity) {
+TEST(TunableRefusal, OfStatesThatFollowAVelocity) {
   compiler::Choices choices;
   choices.state_input = compiler::StateInput::velocity;
   const std::string said = said_of(file("\"network\": { \"spring\": \"K\" }"), choices);
@@ -55,7 +55,7 @@ TEST(TunableRefusal, of_states_that_follow_a_velocity) {
 
 // Slips outside a tree would take longer than anybody was told: their patterns grow as 3ⁿ. One slip holds nothing to
 // begin with.
-TEST(TunableRefusal, of_many_slips_outside_a_tree) {
+TEST(TunableRefusal, OfManySlipsOutsideATree) {
   const auto ring = [](int slips) {
     std::string elements = R"({ "spring": "K", "nodes": ["tool", "n0"] }, { "slip": "Y", "nodes": ["n0", "n1"] })";
     for (int i = 1; i < slips; ++i)
@@ -71,7 +71,7 @@ TEST(TunableRefusal, of_many_slips_outside_a_tree) {
 }
 
 // The brake would stay where the defaults put it while the network changes under it.
-TEST(TunableBrake, follows_the_parameters) {
+TEST(TunableBrake, FollowsTheParameters) {
   const char* const network = R"({ "dashpot": 1, "name": "n",
     "parameters": { "B1": { "value": 5, "tunable": true, "min": 0, "max": 50 }, "K": { "value": 3, "tunable": true, "min": 0, "max": 50 } },
     "network": { "parallel": [ { "series": [ { "damper": "B1" }, { "spring": 12 } ] },
@@ -97,7 +97,7 @@ TEST(TunableBrake, follows_the_parameters) {
 
 // The brake would take nothing of what is behind slips, or keep their damping when they give way. A table of patterns
 // in the law without tunables, a walk over the tree in this one.
-TEST(TunableBrake, follows_the_slips_that_slide) {
+TEST(TunableBrake, FollowsTheSlipsThatSlide) {
   const char* const network = R"({ "dashpot": 1, "name": "n",
     "parameters": { "Y": { "value": 0.4, "tunable": true, "min": 0.1, "max": 5 }, "B": { "value": 2, "tunable": true, "min": 0, "max": 8 } },
     "network": { "series": [ { "parallel": [ { "damper": "B" }, { "series": [ { "spring": 300 }, { "slip": 1 } ] } ] },
@@ -119,7 +119,7 @@ TEST(TunableBrake, follows_the_slips_that_slide) {
 
 // Outside a tree the brake would take a slip's ends for joined when it slides, or for apart when it holds: a bridge of
 // dampers whose middle is a slip.
-TEST(TunableBrake, follows_slips_outside_a_tree) {
+TEST(TunableBrake, FollowsSlipsOutsideATree) {
   const char* const bridge = R"({ "dashpot": 1, "name": "n",
     "parameters": { "Y": { "value": 0.2, "tunable": true, "min": 0, "max": 5 }, "B": { "value": 1, "tunable": true, "min": 0, "max": 8 } },
     "elements": [ { "damper": 2, "nodes": ["tool", "a"] }, { "damper": 3, "nodes": ["tool", "b"] }, { "slip": "Y", "nodes": ["a", "b"] },
@@ -140,7 +140,7 @@ TEST(TunableBrake, follows_slips_outside_a_tree) {
 }
 
 // A coil that lags would be told to jump, or a count of the encoder there and back to let go.
-TEST(TunableBrake, goes_no_faster_than_its_coil) {
+TEST(TunableBrake, GoesNoFasterThanItsCoil) {
   const char* const network = R"({ "dashpot": 1, "name": "n",
     "parameters": { "Y": { "value": 0.4, "tunable": true, "min": 0.1, "max": 5 } },
     "network": { "series": [ { "parallel": [ { "spring": 500 }, { "damper": 5 } ] }, { "slip": "Y" } ] } })";

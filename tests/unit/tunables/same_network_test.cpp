@@ -53,33 +53,31 @@ void expect_same_forces(Kind kind, compiler::Scheme scheme) {
 }
 
 // A network would change its forces by having a slider.
-TEST(SameNetwork, of_branches_in_the_exact_scheme) {
-  expect_same_forces(Kind::parallel_branches, compiler::Scheme::exact);
-}
-TEST(SameNetwork, of_branches_in_backward_euler) {
+TEST(SameNetwork, OfBranchesInTheExactScheme) { expect_same_forces(Kind::parallel_branches, compiler::Scheme::exact); }
+TEST(SameNetwork, OfBranchesInBackwardEuler) {
   expect_same_forces(Kind::parallel_branches, compiler::Scheme::backward_euler);
 }
-TEST(SameNetwork, of_trees_in_backward_euler) { expect_same_forces(Kind::tree, compiler::Scheme::backward_euler); }
-TEST(SameNetwork, of_graphs_in_backward_euler) { expect_same_forces(Kind::graph, compiler::Scheme::backward_euler); }
-TEST(SameNetwork, of_slips_in_backward_euler) { expect_same_forces(Kind::slips, compiler::Scheme::backward_euler); }
-TEST(SameNetwork, behind_a_contact_in_the_exact_scheme) { expect_same_forces(Kind::touched, compiler::Scheme::exact); }
-TEST(SameNetwork, behind_a_contact_in_backward_euler) {
+TEST(SameNetwork, OfTreesInBackwardEuler) { expect_same_forces(Kind::tree, compiler::Scheme::backward_euler); }
+TEST(SameNetwork, OfGraphsInBackwardEuler) { expect_same_forces(Kind::graph, compiler::Scheme::backward_euler); }
+TEST(SameNetwork, OfSlipsInBackwardEuler) { expect_same_forces(Kind::slips, compiler::Scheme::backward_euler); }
+TEST(SameNetwork, BehindAContactInTheExactScheme) { expect_same_forces(Kind::touched, compiler::Scheme::exact); }
+TEST(SameNetwork, BehindAContactInBackwardEuler) {
   expect_same_forces(Kind::touched, compiler::Scheme::backward_euler);
 }
-TEST(SameNetwork, of_slips_behind_a_contact_in_backward_euler) {
+TEST(SameNetwork, OfSlipsBehindAContactInBackwardEuler) {
   expect_same_forces(Kind::touched_slips, compiler::Scheme::backward_euler);
 }
-TEST(SameNetwork, of_slips_outside_trees_in_backward_euler) {
+TEST(SameNetwork, OfSlipsOutsideTreesInBackwardEuler) {
   expect_same_forces(Kind::slips_in_graph, compiler::Scheme::backward_euler);
 }
-TEST(SameNetwork, of_slips_outside_trees_behind_a_contact_in_backward_euler) {
+TEST(SameNetwork, OfSlipsOutsideTreesBehindAContactInBackwardEuler) {
   expect_same_forces(Kind::touched_slips_in_graph, compiler::Scheme::backward_euler);
 }
 
 // What relaxes between two ends of slips would be stepped by backward Euler, though nothing else relaxes with it: a
 // ring of three slips, a tunable Maxwell element and a tunable Kelvin element in series with a spring between their
 // ends.
-TEST(SameNetwork, of_one_ports_between_slips_in_the_exact_scheme) {
+TEST(SameNetwork, OfOnePortsBetweenSlipsInTheExactScheme) {
   const char* const ring = R"({ "dashpot": 1, "name": "ring",
     "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 1000 }, "Y": { "value": 0.2, "tunable": true, "min": 0, "max": 1 } },
     "elements": [ { "spring": 500, "nodes": ["tool", "a"] }, { "slip": "Y", "nodes": ["a", "b"] }, { "slip": 0.3, "nodes": ["b", "c"] },
@@ -93,7 +91,7 @@ TEST(SameNetwork, of_one_ports_between_slips_in_the_exact_scheme) {
 }
 
 // An inner node that three ends of slips share would be lost, or its springs take another way.
-TEST(SameNetwork, of_stars_between_slips_in_backward_euler) {
+TEST(SameNetwork, OfStarsBetweenSlipsInBackwardEuler) {
   const char* const star = R"({ "dashpot": 1, "name": "star",
     "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 1000 } },
     "elements": [ { "spring": 500, "nodes": ["tool", "a"] }, { "slip": 0.2, "nodes": ["a", "b"] }, { "slip": 0.3, "nodes": ["b", "c"] },

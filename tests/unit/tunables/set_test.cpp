@@ -110,14 +110,14 @@ void expect_no_gain(Kind kind) {
 }
 
 // A slider in a user's hand would drive the tool.
-TEST(Set, injects_no_energy_into_branches) { expect_no_gain(Kind::parallel_branches); }
-TEST(Set, injects_no_energy_into_trees) { expect_no_gain(Kind::tree); }
-TEST(Set, injects_no_energy_into_graphs) { expect_no_gain(Kind::graph); }
-TEST(Set, injects_no_energy_into_slips) { expect_no_gain(Kind::slips); }
-TEST(Set, injects_no_energy_behind_a_contact) { expect_no_gain(Kind::touched); }
-TEST(Set, injects_no_energy_into_slips_behind_a_contact) { expect_no_gain(Kind::touched_slips); }
-TEST(Set, injects_no_energy_into_slips_outside_trees) { expect_no_gain(Kind::slips_in_graph); }
-TEST(Set, injects_no_energy_into_slips_outside_trees_behind_a_contact) { expect_no_gain(Kind::touched_slips_in_graph); }
+TEST(Set, InjectsNoEnergyIntoBranches) { expect_no_gain(Kind::parallel_branches); }
+TEST(Set, InjectsNoEnergyIntoTrees) { expect_no_gain(Kind::tree); }
+TEST(Set, InjectsNoEnergyIntoGraphs) { expect_no_gain(Kind::graph); }
+TEST(Set, InjectsNoEnergyIntoSlips) { expect_no_gain(Kind::slips); }
+TEST(Set, InjectsNoEnergyBehindAContact) { expect_no_gain(Kind::touched); }
+TEST(Set, InjectsNoEnergyIntoSlipsBehindAContact) { expect_no_gain(Kind::touched_slips); }
+TEST(Set, InjectsNoEnergyIntoSlipsOutsideTrees) { expect_no_gain(Kind::slips_in_graph); }
+TEST(Set, InjectsNoEnergyIntoSlipsOutsideTreesBehindAContact) { expect_no_gain(Kind::touched_slips_in_graph); }
 
 // Of a hand that presses while a spring is soft, lets it be made stiff, and goes back within the hold in which it is
 // made soft again: what the force has given to it when all is over, with 0.6 N·s/m of damping beside the law. In every
@@ -155,13 +155,13 @@ double taken_by_waiting_for_changes(bool holds_new_force) {
 
 // Fails if a change brings energy in although the force behind it is held at once, or if that is not needed: then the
 // headers and compiler/theory.md ask for too much.
-TEST(Set, pays_for_the_hold_where_the_new_force_is_held_at_once) {
+TEST(Set, PaysForTheHoldWhereTheNewForceIsHeldAtOnce) {
   EXPECT_GT(taken_by_waiting_for_changes(true), 0);
   EXPECT_LT(taken_by_waiting_for_changes(false), -0.05);
 }
 
 // Fails if relaxations go on faster where the command is taken from a second output() of each sample.
-TEST(Set, keeps_the_time_where_a_sample_is_put_out_twice) {
+TEST(Set, KeepsTheTimeWhereASampleIsPutOutTwice) {
   const TunableLaw compiled(pressed_network);
   Law once(compiled.law()), twice(compiled.law());
   std::vector<double> values = compiled.defaults();
@@ -177,7 +177,7 @@ TEST(Set, keeps_the_time_where_a_sample_is_put_out_twice) {
 }
 
 // A slider that is not moved would be felt.
-TEST(Set, changes_no_bit_where_nothing_changes) {
+TEST(Set, ChangesNoBitWhereNothingChanges) {
   for (const Kind kind : all_kinds)
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
       const TunableLaw compiled(tunable_network(seed, kind));
@@ -196,9 +196,9 @@ TEST(Set, changes_no_bit_where_nothing_changes) {
     }
 }
 
-// A value that is no number, or beyond what the author declared, would reach the coefficients, or the caller not hear
+// A NaN, or beyond what the author declared, would reach the coefficients, or the caller not hear
 // of it.
-TEST(Set, clamps_and_says_which) {
+TEST(Set, ClampsAndSaysWhich) {
   const TunableLaw compiled(pressed_network);
   const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   Law law(compiled.law()), same(compiled.law());
@@ -217,7 +217,7 @@ TEST(Set, clamps_and_says_which) {
 }
 
 // A change would be felt as a knock. What is left is what relaxes within a sample, which goes with the period.
-TEST(Set, leaves_the_force_where_it_was) {
+TEST(Set, LeavesTheForceWhereItWas) {
   double last_median = 0;
   for (const double rate : {1e3, 1e4, 1e5}) {
     std::vector<double> jumps;
@@ -236,7 +236,7 @@ TEST(Set, leaves_the_force_where_it_was) {
 
 // A slider that trembles would let go of the tissue: displacements that shrink with every change lose all force in a
 // second.
-TEST(Set, keeps_the_force_while_a_value_trembles) {
+TEST(Set, KeepsTheForceWhileAValueTrembles) {
   const TunableLaw compiled(pressed_network);
   Law law(compiled.law()), still(compiled.law());
   std::vector<double> values = compiled.defaults();
@@ -253,7 +253,7 @@ TEST(Set, keeps_the_force_while_a_value_trembles) {
 }
 
 // Coefficients would depend on the way that led to them.
-TEST(Set, has_the_coefficients_of_the_law_compiled_at_its_values) {
+TEST(Set, HasTheCoefficientsOfTheLawCompiledAtItsValues) {
   for (const Kind kind : all_kinds)
     for (std::uint64_t seed = 1; seed <= 30; ++seed) {
       const TunableLaw compiled(tunable_network(seed, kind), feedthrough());
@@ -272,7 +272,7 @@ TEST(Set, has_the_coefficients_of_the_law_compiled_at_its_values) {
 }
 
 // What a rise of stiffness owes would be owed for ever.
-TEST(Set, comes_home_when_the_tool_has_left) {
+TEST(Set, ComesHomeWhenTheToolHasLeft) {
   const TunableLaw compiled(pressed_network);
   Law changed(compiled.law()), born(compiled.law());
   const std::vector<double> values = {900, 100, 2};

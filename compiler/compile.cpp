@@ -30,12 +30,13 @@
 namespace dashpot::compiler {
 namespace {
 
-// With these the choice is compared in words.
+// Candidates that the choice is compared with in its text.
 bool is_compared(const Candidate& candidate) {
   return candidate.name == "paper" || candidate.name == "velocity-free" || candidate.name == "virtual";
 }
 
-// How `faithful` moves over what the device file assumes; `gap` of jitter at what was chosen.
+// How `faithful` moves while the values that the device file assumes are varied; `gap` of jitter as found for the
+// choice.
 std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present, const SlipDecomposer& behind_slips,
                                     const Choices& choices, double gap) {
   const Candidate& choice = c.decomposition.choice();
@@ -139,7 +140,7 @@ void tell_of_certificate(Compilation& c) {
   if (choice.faithful) choice.faithful->certified = c.certificate.certified;
 }
 
-// Of the scalar's numbers those below, so that the device clips nothing of what rounding has left.
+// Rounded down to the scalar type, so that the device clips nothing that is due to rounding.
 MotorReach reach_of(const SampledLoop& loop, ScalarType scalar) {
   const double below = 1 - 8 * unit_roundoff(scalar);
   return {loop.max_force * below, largest_change(loop) * below};

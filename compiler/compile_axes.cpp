@@ -155,7 +155,7 @@ std::optional<axes::ShareMap> share_with(const AxesCompilation& c, const std::ve
 
 namespace {
 
-// The least factor that does lies between, as doublings from `most` and a few halvings tell.
+// The least sufficient factor lies in between; found by doubling `enough` and a few halvings.
 struct Bracket {
   double less, enough;
 };
@@ -171,8 +171,8 @@ std::optional<Bracket> least_factor(double less, double enough, const Does& does
   return Bracket{less, enough};
 }
 
-// The device of the least factor with which it would be certified. Some places tell what is too little, nearly always
-// to the step; what they leave is asked of the whole workspace.
+// The device with the least factor for which the network would be certified. A check at some places finds the factor,
+// nearly always to within a step; from there on the whole workspace is checked.
 template <class DeviceOf>
 std::optional<AxesDevice> device_that_would_do(const AxesCompilation& c, double less, double enough,
                                                const DeviceOf& device_of) {

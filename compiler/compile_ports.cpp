@@ -120,7 +120,7 @@ std::optional<double> clamp_of(const Compilation& port) {
   return port.certificate.loop.max_force * (1 - 8 * unit_roundoff(port.law.scalar));
 }
 
-// What each port needs adds up, whatever each rests on: with that much damping each gives no energy, in any motion.
+// The ports' needs add up, whatever proves each of them: with so much damping no port gives energy, in any motion.
 PassivityBound sum_of_bounds(const std::vector<Compilation>& ports) {
   PassivityBound sum;
   sum.proof = Proof::hold;

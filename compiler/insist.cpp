@@ -39,7 +39,7 @@ const Lateness write_delay{"no \"write_delay\"",
                            [](device_description& d) { d.loop.write_earliest = d.loop.write_latest = 0; }};
 const Lateness limited_slew{"no \"slew\"", [](device_description& d) { d.motor.slew = 0; }};
 
-// The network on another device, or another one on the same: what is told to people has been tried.
+// The network compiled on another device, or another network on the same: whatever is recommended has been tried.
 std::optional<Compilation> compiled(const Network& network, Choices choices, const Device& device) {
   Diagnostics unheard;
   StageTimes unseen;
@@ -123,8 +123,8 @@ class Remedies {
         choices_(choices),
         scale_(c.port.at_tool().replaced_by(with_brake(*c.device, 1)).max_damping().value_or(0)) {}
 
-  // At the tool, in four digits: what is missing for the law as it is, or some more, since with a brake another b may
-  // be chosen; else room for all that the law would be told.
+  // At the tool, in four digits: what the law as it is lacks, or somewhat more, since with a brake another b may be
+  // chosen; else enough for everything that the law would command.
   std::optional<Remedy> brake(double enough) const {
     for (const double more : {1.0, 1.02, 1.2, 2.0, 4.0, 8.0, 16.0})
       if (const std::optional<Remedy> told = brake_as_told(more * enough)) return told;
@@ -136,8 +136,8 @@ class Remedies {
   double at_joint(double damping) const { return damping / scale_; }
   double at_tool(double damping) const { return damping * scale_; }
 
-  // At the tool, in four digits: of the device itself, whatever the brake does, without what makes its loop late, in
-  // the words of the file.
+  // At the tool, in four digits: the damping of the device itself that is enough whatever the brake does, if the loop
+  // is freed of `left_out`, the causes of its lateness in the words of the file.
   std::optional<Remedy> own_damping(const std::vector<Lateness>& left_out) const {
     Device device = without(left_out);
     mechanics_description& mechanics = device.description.mechanics;
@@ -159,7 +159,7 @@ class Remedies {
     return std::nullopt;
   }
 
-  // In the device's own unit, in four digits: of the device itself, for a law that keeps to its motor's limit.
+  // In the device's own unit, in four digits: damping of the device itself for a law that keeps to its motor's limit.
   std::optional<Remedy> own_damping_at_the_limit() const {
     Device device = *c_.device;
     double& own = device.description.mechanics.damping;
@@ -387,7 +387,7 @@ bool add_slew(const Compilation& c, const Remedies& remedies, RemedyNotes& notes
   return slew || without;
 }
 
-// What the device itself would have to be like: with more friction of the kind that a brake cannot replace, or a loop
+// What the device itself would have to be like: with more of the damping that a brake cannot replace, or with a loop
 // that is not late.
 void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   const device_description& device = c.device->description;
@@ -618,7 +618,7 @@ const FeltError in_the_band{
     },
     true};
 
-// The network compiled otherwise, once for each change whatever is asked of it.
+// Compiles the network under changed conditions, once for each change however often it is asked for.
 class Trials {
  public:
   explicit Trials(const Network& network) : network_(network) {}

@@ -13,7 +13,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// Where nothing else can be had the reason is why not.
+// If no other law is available the reason says why.
 SlipDecomposition with_reasons(SlipDecomposition slips, const std::string& reason) {
   for (std::vector<ComponentSplit> SlipDecomposition::*parts :
        {&SlipDecomposition::components, &SlipDecomposition::networks})

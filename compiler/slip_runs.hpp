@@ -30,7 +30,7 @@ class SlipRuns {
   SlipPlan plan(SlipLaw law, double excess = 1) const { return {law, excess, gain_}; }
   // velocity_free first, then the others that some part can have.
   const std::vector<SlipLaw>& laws() const { return laws_; }
-  // Of those laws this one alone.
+  // Restricts laws() to this one.
   void keep_to(SlipLaw law) { laws_ = {law}; }
   const SlipTrial& trial() const { return *trial_; }
   const Candidate& chosen_beside() const { return c_.decomposition.choice(); }
@@ -61,7 +61,7 @@ class SlipRuns {
   std::vector<SlipLaw> laws_;
   UpdateLaw coarse_, fine_;
   std::optional<SlipTrial> trial_;  // made before the first run
-  // Of jitter (certify/proved_bound.hpp), as first looked at: what is run twice has to come out the same.
+  // Gaps of jitter (certify/proved_bound.hpp) as first found, so that a repeated run gives the same result.
   std::map<StateInput, double> gaps_;
 };
 

@@ -19,8 +19,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Of a motion, at the law's rate. A sine slower than that is played faster: what a slip law does wrong grows with the
-// velocity, and slower motions show less of it.
+// Samples of a motion, at the law's rate. A sine that would need more is played faster: the error of a slip law grows
+// with the velocity, so that slower motions would show less of it.
 constexpr double most_samples = 1500;
 constexpr double most_periods = 3;
 constexpr double around_yield[] = {0.5, 2, 8};  // amplitudes, in displacements at yield

@@ -2,10 +2,9 @@
 // joints [N·m·s/rad]; a brake acts along a constant direction a_j of joint velocities with d_j a_j a_jᵀ, 0 ≤ d_j ≤
 // most; the motors make the rest R = B* − Σ d_j a_j a_jᵀ from an estimate.
 //
-//     diagonal       brakes take all but the coupling of the first two of them that are not parallel; what couples them
-//     is taken by
-//                    further brakes as far as that leaves no negative diagonal, and else by the motors. Delay-proof
-//                    where no brake is at its limit
+//     diagonal       brakes take all but the coupling of the first two of them that are not parallel; that coupling is
+//                    taken by further brakes as far as that leaves no negative diagonal, and else by the motors.
+//                    Delay-proof where no brake is at its limit
 //     non-injecting  R ≥ 0 with the least tr(C R), where C is the mean of q̇ q̇ᵀ over the motion
 //     virtual        no brake
 #pragma once
@@ -40,8 +39,8 @@ Symmetric<S> along_brakes(const Pair<Pair<double>>& dual, const Symmetric<S>& m)
 // One damping for each of one to four brakes, as a law computes it. Divides by nothing that varies. With [[p, r], [r,
 // s]] in the coordinates of the two brakes, and a further brake along α a_1 + β a_2:
 //
-//     d = min((r/αβ)⁺, p/α², s/β², most), which is taken off p, r and s;      then d_1 = min(p, most_1), d_2 = min(s,
-//     most_2)
+//     d = min((r/αβ)⁺, p/α², s/β², most), which is taken off p, r and s;
+//     then d_1 = min(p, most_1), d_2 = min(s, most_2)
 template <typename S>
 std::vector<S> diagonal(const std::vector<Brake>& brakes, const Symmetric<S>& target);
 

@@ -79,7 +79,7 @@ inline Interval square(const Interval& a) {
 }
 // part/whole, by the reciprocal of the whole, where |part| ≤ whole.
 Interval fraction(const Interval& part, const Interval& reciprocal);
-// Of what of it is not negative; [0, 0] where nothing is.
+// The root of the part of an interval that is not negative; [0, 0] if there is none.
 Interval sqrt(const Interval& a);
 inline Interval min(const Interval& a, const Interval& b) { return {std::min(a.low, b.low), std::min(a.high, b.high)}; }
 inline Interval max(const Interval& a, const Interval& b) { return {std::max(a.low, b.low), std::max(a.high, b.high)}; }
@@ -87,7 +87,7 @@ inline Interval max(const Interval& a, const Interval& b) { return {std::max(a.l
 Interval sin(const Interval& a);
 Interval cos(const Interval& a);
 Interval atan(const Interval& a);
-// Of what of it lies in [−1, 1].
+// For the part of an interval that lies in [−1, 1].
 Interval acos(const Interval& a);
 
 // The smallest interval that holds both.

@@ -14,8 +14,8 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 //
 //     x = ½(a + c) + √(¼(a − c)² + b²),     a = N11/W1, c = N22/W2, b² = N12²/(W1 W2)
 //
-// It is convex in a matrix. So over a box it is largest where every t_j is at an end if entries go straight with all of
-// them; what slopes are wide by is in the entries there. Or of the entries as they are, where that is less.
+// x is convex in the matrix. So over a box it is largest with every t_j at an end, if the entries are linear in them;
+// the widths of the slopes are included in the entries there. Or, if it is less, x of the entries' own enclosures.
 struct Largest {
   double x;
   Pair<double> at{0, 0};  // the first two t_j at that end

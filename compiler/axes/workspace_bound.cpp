@@ -50,15 +50,15 @@ Pair<ForceForm> force_ends(const PortLoad& load, const Interval& depth, const In
   return {ForceForm{0, Interval(force.low)}, ForceForm{0, Interval(force.high)}};
 }
 
-// A ball or a band pushes outward (M ≥ 0) where it bends away, a cavity the other way round: what it bends of itself
-// can only lessen the sum.
+// Whether the map's own curvature can only lessen the sum: that of a ball or a band that pushes outward (M ≥ 0), and
+// the other way round for a cavity.
 bool is_lessened_by_bend(const PortMap& map, const Interval& force) {
   const Circle* circle = std::get_if<Circle>(&map);
   if (circle != nullptr && circle->sign < 0) return force.high <= 0;
   return (circle != nullptr || std::holds_alternative<Band>(map)) && force.low >= 0;
 }
 
-// What Jᵀ ∇w ∇wᵀ J is no more than where the direction of ∇w is open, as at a centre and on a line.
+// An upper bound of Jᵀ ∇w ∇wᵀ J where the direction of ∇w is not known, as at a centre and on a line.
 template <typename S>
 std::optional<Symmetric<S>> steepest(const PortMap& map, const Pose<S>& at) {
   if (const Band* band = std::get_if<Band>(&map)) return outer(at_joints(at, constant<S>(band->normal)));

@@ -1,4 +1,4 @@
-// A device whose file marks values as assumed, with one of them a fifth more or less.
+// Variants of a device in which one of the values that its file marks as assumed is a fifth larger or smaller.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ struct VariedDevice {
   Device device;
 };
 
-// Two for each assumed value that what is felt or what is certified depends on, one value at a time. Whole numbers, and
-// what neither depends on, are left alone.
+// Two variants for each assumed value that affects what is felt or what is certified, one value at a time. Integer
+// values, and values that affect neither, are not varied.
 std::vector<VariedDevice> with_assumed_varied(const Device& device);
 
 }  // namespace dashpot::compiler

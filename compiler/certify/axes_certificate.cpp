@@ -22,7 +22,7 @@ using axes::Pair;
 using axes::Sloped;
 using axes::Symmetric;
 
-constexpr int places_a_side = 40;  // of the workspace, where shares are told
+constexpr int places_a_side = 40;  // for reports of the brakes' share
 
 bool compensates(const UpdateLaw& law) {
   return std::any_of(law.coefficients.begin(), law.coefficients.end(), [](const Coefficient& c) {
@@ -37,7 +37,7 @@ double sum_of_yields(const Network& network) {
   return sum;
 }
 
-// Of the port's own estimate, g·v̂: by it a contact that damps lets go [N·s/m].
+// The gain of the port's own estimate g·v̂ by which a contact with damping is released [N·s/m].
 double follows(const CertifiedPort& port) { return port.slips ? port.slips->compensation : 0; }
 
 axes::PortLoad load_of(const CertifiedPort& port, double sample_period) {
@@ -53,7 +53,7 @@ axes::PortLoad load_of(const CertifiedPort& port, double sample_period) {
   return load;
 }
 
-// Both joints' fastest rates over a hold, and one more for each sample of delay.
+// How far both joints move at their largest speed over a hold, and over one more for each sample of delay.
 axes::SampledLoop loop_of(const AxesDevice& device) {
   axes::SampledLoop loop;
   loop.longest_period = loop_of_joint(device.joints[0]).longest_hold();
@@ -86,8 +86,8 @@ std::vector<axes::Place> places_of(const AxesDevice& device, int side) {
   return axes::places_in(device.arm, device.workspace, side);
 }
 
-// A share is told of what takes power in every direction; a single wall does so by 1e-9 of the most that is wanted.
-// Nothing where nothing is wanted.
+// A share can only be given of a damping that takes power in every direction, so 1e-9 of the largest wanted damping is
+// added in all directions: a single wall has it in one only. Empty if no damping is wanted.
 std::optional<axes::TipDamping> definite_at_tip(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                                                 const AxesDevice& device, const std::vector<axes::Place>& places) {
   const axes::TipDamping wanted = wanted_at_tip(network, ports);
@@ -192,7 +192,7 @@ std::string at_joints(double x, const AxesCertificate& c, const AxesDevice& devi
 // Of a place that is told in millimetres, what is less than a nanometre is 0.
 double in_millimetres(double place) { return 1e3 * (std::abs(place) < 1e-9 ? 0 : place); }
 
-// Empty where it can be told how far the joints go while a force is held.
+// Why it is not known how far the joints move while a force is held; empty if it is known.
 std::string unknown_travel(const AxesDevice& device) {
   for (const device_description& joint : device.joints)
     if (joint.encoder.max_speed == 0)
@@ -316,7 +316,7 @@ axes::Size remainder_beside(const std::vector<double>& added, const Asked& asked
   return {turning.most + rest.most, turning.attained + rest.attained};
 }
 
-// Of ports whose forces need a damping that is not bounded.
+// Why the damping that the ports' forces need is not bounded.
 std::string why_unbounded(const Asked& asked, const AxesDevice& device) {
   axes::SampledLoop still = loop_of(device);
   still.reach = {0, 0};
@@ -333,7 +333,7 @@ struct PortSize {
   double turning = 0;   // ‖M H‖ [N/m]
 };
 
-constexpr int rough_parts = 500;  // where nothing that is added hangs on it
+constexpr int rough_parts = 500;  // parts of the workspace, where no added damping depends on the result
 
 std::vector<PortSize> sizes_of(const Asked& asked, const AxesDevice& device, bool is_late) {
   const std::vector<axes::PortLoad> loads = loads_of(asked, device);
@@ -348,8 +348,8 @@ std::vector<PortSize> sizes_of(const Asked& asked, const AxesDevice& device, boo
   return sizes;
 }
 
-// K of a port: its force is off by no more than that times what its depth is off by [N/m]. Behind slips it holds while
-// a step alone makes none of them give way, which is not asked here.
+// K of a port: the error of its force is at most K times the error of its depth [N/m]. Behind slips this holds as long
+// as an encoder step alone makes none of them give way, which is not checked here.
 std::optional<double> gain_of_steps(const CertifiedPort& port, const AxesDevice& device) {
   if (port.form->has_slips()) return std::nullopt;
   if (!port.slips) return port.certificate->quantisation_gain;
@@ -404,7 +404,8 @@ bool is_within_reach(const std::vector<double>& added, const AxesDevice& device)
   return true;
 }
 
-// From what bounds nothing, or from what some place of the workspace asks for alone.
+// Which end of an enclosure to go by: the proved upper bound, or the lower bound that some place of the workspace
+// attains.
 enum class End { proved, attained };
 
 struct Added {
@@ -416,7 +417,8 @@ struct Added {
 
 constexpr int most_rounds = 12;
 
-// What is added leaves the brakes less of the ports' damping, and the motors more: found in a few rounds, or not.
+// What is added leaves the brakes less range for the ports' damping, and the motors more to do: solved in a few rounds,
+// or not at all.
 Added added_for(double rest, const Asked& asked, const AxesDevice& device, bool is_gated, End end = End::proved,
                 int parts = axes::most_boxes) {
   Added result;
@@ -574,8 +576,8 @@ Added settled(const Asked& asked, const AxesDevice& device, const AddedWith& add
   return added_with(false);
 }
 
-// What held forces ask for at least on a device of which the joints' own damping alone is another, or the brakes'
-// limits where what is given does not hang on them.
+// A lower bound of what held forces need, on a device that differs in the joints' own damping only, or also in the
+// brakes' limits if the damping that is there does not depend on them.
 std::optional<double> least_rest(const AxesDevice& device, const AxesDevice& was, const AxesCertificate& like,
                                  bool is_gated, axes::BrakeRule rule) {
   bool is_alike = like.gate.has_value() == is_gated;

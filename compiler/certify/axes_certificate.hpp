@@ -30,39 +30,39 @@ struct CertifiedPort {
 struct AxesCertificate {
   bool is_proved = false;  // false: for `reason`
   std::string reason;
-  double needed = 0;         // x W that the motors' torques need, W = diag(weight) [N·s/m]
-  double for_estimates = 0;  // of that, what follows estimates [N·s/m]
-  double contacts = 0;       // in that, Σ κ ‖g gᵀ‖ of those that let go by an estimate κ g·v̂ [N·s/m]
-  double for_lag = 0;        // of what is needed, what the motors' amplifiers are behind with [N·s/m]
-  double least_rest = 0;     // held forces need no less beside what is there, below 0 where that is more [N·s/m]
-  double missing = 0;        // x that has to be added to what is there already; not below it [N·s/m]
+  double needed = 0;         // x of the damping x W that the motors' torques need, W = diag(weight) [N·s/m]
+  double for_estimates = 0;  // share of `needed` that is due to velocity estimates [N·s/m]
+  double contacts = 0;  // in `for_estimates`, Σ κ ‖g gᵀ‖ of contacts that are released by an estimate κ g·v̂ [N·s/m]
+  double for_lag = 0;     // share of `needed` that is due to the lag of the motors' amplifiers [N·s/m]
+  double least_rest = 0;  // lower bound of what held forces need beyond what is there, negative if that is more [N·s/m]
+  double missing = 0;     // x that has to be added to what is there already; not below it [N·s/m]
   axes::Pair<double> weight{1, 1};  // square of each joint's link [m²]; [1] of joints that slide
   axes::Pair<double> worst{0, 0};   // tip where most is missing [m]
   std::vector<double> added;        // to each brake's command [N·m·s/rad] or [N·s/m]
-  double added_at_tip = 0;          // that, where and in which direction most of it is felt at the tip [N·s/m]
-  std::string uncovered;            // what of this network on this device no bound covers yet; empty: nothing
-  bool lies_in_port = false;        // either of these: another network in a port may have a bound
+  double added_at_tip = 0;  // the largest damping that `added` makes at the tip, over all places and directions [N·s/m]
+  std::string uncovered;    // the part of this network on this device that no bound covers yet; empty if there is none
+  bool lies_in_port = false;  // the cause of either is a port's network: another one may have a bound
   bool certified = false;
-  // What the encoders' steps change of the motors' torques, no more at each joint [N·m] or [N]; empty where that is not
-  // bounded.
+  // Upper bounds of how much the encoders' steps change the motors' torques, one for each joint [N·m] or [N]; empty if
+  // they are not bounded.
   std::optional<axes::Pair<double>> torque_of_steps;
   std::optional<axes::ShareMap> share;  // of the ports' damping by the brakes; empty where there is none
 
-  // Of a field that turns: what lets the brakes pay for what couples them, and what of the field it lets pass. Without
-  // a gate the damping that is added for estimates pays for it.
+  // For a field that turns: the gate that lets the brakes pay for the coupling between them, and how much of the field
+  // passes it. Without a gate the damping that is added for estimates pays for the coupling.
   std::optional<axes::CurlGate> gate;
   std::optional<GatePassage> passage;
   std::string why_no_gate;  // a clause; empty where there is one, or no field that turns
 
   bool adds() const;
 
-  // Nothing else stands in the way, if anything does.
+  // Whether missing damping is the only obstacle to a certificate, if there is any obstacle.
   bool lacks_only_damping() const { return is_proved && uncovered.empty(); }
 };
 
 std::vector<axes::Brake> brakes_of(const AxesDevice& device);
 
-// Of the damping of all ports, where they are pushed, what the brakes make by a rule; nothing where there is no
+// The brakes' share, under a rule, of the damping of all ports while all of them are pushed; empty if there is no
 // damping, no workspace, or so much damping that it cannot be computed.
 std::optional<axes::ShareMap> share_of(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                                        const AxesDevice& device, axes::BrakeRule rule);
@@ -80,8 +80,8 @@ std::vector<PlacedShare> shares_over(const AxesNetwork& network, const std::vect
 AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                              const AxesDevice& device, axes::BrakeRule rule);
 
-// Whether it would be certified on a device of which the brakes' limits and the joints' own damping alone are others
-// than on that of `like`, which lacks damping.
+// Whether the network would be certified on a device that differs from that of `like`, a certificate that lacks
+// damping, in the brakes' limits and the joints' own damping only.
 bool would_be_certified(const AxesNetwork& network, const std::vector<CertifiedPort>& ports, const AxesDevice& device,
                         axes::BrakeRule rule, const AxesCertificate& like);
 

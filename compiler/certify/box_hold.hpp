@@ -1,5 +1,6 @@
-// What springs and slips of a network with tunable parameters hold at most behind a static curve's map w, whatever is
-// set and whenever (theory, section 11). Over a change no force grows (energy_tank.hpp), so that
+// Upper bounds of the forces that springs and slips of a network with tunable parameters hold behind a static curve's
+// map w, whatever is set and whenever (theory, section 11). A change of parameters makes no force larger
+// (energy_tank.hpp), so that
 //
 //     a relaxation      |F⁺| ≤ a |F| + k φ |Δw|,     φ/(1 − a) = b/kT:     |F| ≤ b_most |Δw|_most/T
 //     and where its spring keeps its stiffness         |F| ≤ k Δ,          Δ the way in w from where the tool has been
@@ -36,7 +37,7 @@ struct BoxHold {
   bool can_soften = false;                  // some spring, wherever it is
 };
 
-// Of a law with tunables, before its map and what sheds. `sheds`: whether it will.
+// Of a law with tunables, before its map and its shedding are written. `sheds`: whether it will shed.
 BoxHold box_hold(const UpdateLaw& law, bool sheds);
 
 }  // namespace dashpot::compiler

@@ -1,5 +1,6 @@
-// What the motor of a network with tunable parameters asks for, whatever their values within the declared ranges
-// (theory, section 6). Every stiffness and damping is an affine function of the tunables with non-negative factors.
+// The damping that the motor of a network with tunable parameters needs, whatever their values within the declared
+// ranges (theory, section 6). Every stiffness and damping is an affine function of the tunables with non-negative
+// factors.
 //
 // With the law's own storage, V = Σ ½ k z² and what the tank holds, which set() never raises, a spring on the cut asks
 // for β = ½ k and a relaxation for ψ k: with φ = c/k, A = ½ (1 − a²), B = a (1 − φ), C = φ − ½ φ², g = (a − 1, φ),
@@ -7,10 +8,10 @@
 // ½ for backward Euler and never above 0.57 for the exact scheme. Between changes; a change that cannot keep the force
 // (tunable_law.hpp) is one jump of the force, held for one sample.
 //
-// b, and with it b∞ − b, is at every point of the box one of a few affine functions: those that the brake's rule and
-// reach choose from. Of affine functions the largest over a box is exact, and worked out in rational numbers: from the
-// numbers of the law's tables, rounded once, outward, at the end. The margin is that of the numbers that set() works
-// out from them.
+// At every point of the box b, and with it b∞ − b, is one of a few affine functions: the alternatives of the brake's
+// rule and of its limit. The largest value of an affine function over a box is exact; it is computed in rational
+// numbers from the numbers of the law's tables and rounded once, outward, at the end. A margin covers the rounding of
+// the numbers that set() computes from them.
 #pragma once
 
 #include <optional>
@@ -29,7 +30,7 @@ struct BoxMotor {
   std::string hindrance;                         // why nothing is proved; empty where something is
   std::optional<double> quantisation_gain = {};  // K over the box, not below it (quantisation.hpp) [N/m]
   double needed = 0;        // max over the box without what the estimate costs [N·s/m], not below it
-  double largest_gain = 0;  // that the motor has of the estimate, at most [N·s/m]
+  double largest_gain = 0;  // largest gain from the estimate to the motor's force [N·s/m]
 };
 
 // `hold`: T_max/h; `lateness` as in slip_motor.hpp; `gain`: γ of the estimate, empty where nothing is known of it;

@@ -74,7 +74,7 @@ PassivityBound hold_statement(const MotorConstants& motor, const SampledLoop& lo
   return within_range(bound);
 }
 
-// A slew that is enough costs as an amplifier's lag does; one that is not is a force that nobody asked for.
+// A slew that is fast enough costs damping as an amplifier's lag does; with one that is not, nothing is proved.
 PassivityBound with_slew(PassivityBound bound, const MotorConstants& motor, const SampledLoop& loop) {
   if (loop.motor_slew == 0 || bound.proof == Proof::none || motor.is_idle()) return bound;
   if (loop.amplifier_lag > 0) return not_proved("the amplifier lags, and its slew is limited");
@@ -94,7 +94,7 @@ PassivityBound with_slew(PassivityBound bound, const MotorConstants& motor, cons
   return within_range(bound);
 }
 
-constexpr double hardly_less = 1 - 1e-8;  // for which no statement is given up that is checked in rational numbers
+constexpr double hardly_less = 1 - 1e-8;  // not enough less to replace a bound that is checked in rational numbers
 
 double nearest(double value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? value : static_cast<double>(static_cast<float>(value));
@@ -152,7 +152,7 @@ PassivityBound bound_beside_slips(const MotorConstants& linear, const SlipMotor&
   return slips.behind_contact || linear.is_idle() ? nothing : passivity_bound(linear, loop, terms);
 }
 
-// Least bounds add up, and of two statements the weaker is left.
+// The needed dampings add up, and of the two kinds of proof the weaker one is stated.
 PassivityBound with_slips(PassivityBound bound, const SlipMotor& slips, const SampledLoop& loop) {
   bound.any_regime = true;
   bound.storage.reset();
@@ -223,7 +223,7 @@ double rounding_of_step(const UpdateLaw& law) {
   const double unit = unit_roundoff(law.scalar);
   const UpdateLaw steps = spelled_out(law, motion::translation);  // units are nothing to their number
   const Cost cost = cost_of(steps, steps.output);
-  // Of modes the error bound knows what an update does; of springs between parameters nothing does.
+  // The error bound covers the updates of modes, but not those of springs whose parameters change.
   const Cost update = law.tunable ? cost_of(steps, steps.update) : Cost{};
   return law.relative_error_bound + unit * double(cost.additions + cost.multiplications + cost.coupled +
                                                   update.additions + update.multiplications);
@@ -253,7 +253,7 @@ PassivityBound bound_with_slips(const PassivityBound& beside, const MotorConstan
   PassivityBound bound = with_slips(beside, slips, loop);
   if (bound.proof == Proof::none || !needs_jitter_gap(loop)) return bound;
   const std::optional<double> together = needed_sample_by_sample(linear, slips, loop);
-  // Behind a contact the brake leaves a free tool alone, which touches late.
+  // Behind a contact the brake is off while the tool is free, and a touch is noticed late.
   const bool is_enough = !slips.behind_contact || (together && Rational(*together) <= assured_damping(loop, 0));
   if (!together || !is_enough || bound.needed < *together * hardly_less) return bound;
   bound.proof = Proof::hold;
@@ -276,7 +276,7 @@ BoxMotor box_of(const UpdateLaw& law, const SampledLoop& loop) {
                          estimate_pulse(loop), loop.encoder_step});
 }
 
-// A brake that changes is told a sum, of whose rounding nothing is promised.
+// A brake command that changes is a sum whose rounding is not known exactly: allows for it.
 double surely_told(const UpdateLaw& law) {
   return law.brake_changes() ? law.damping * (1 - 8 * unit_roundoff(law.scalar)) : law.damping;
 }

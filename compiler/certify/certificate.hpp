@@ -31,8 +31,8 @@ struct PassivityBound {
   bool any_regime = false;    // with slips or a contact: whatever slides, sticks, touches or lets go
   bool any_value = false;     // with tunables: wherever they are in their ranges
   bool over_changes = false;  // and in the samples in which they change
-  // Proved for punctual samples alone: the amplifier lags. Else it holds under any jitter up to the device's; a
-  // certificate states the former only of a device that states no jitter.
+  // Proved for punctual samples only, because the amplifier lags. Otherwise it holds under any jitter up to the
+  // device's; a certificate states the former only for a device that states no jitter.
   bool constant_period_only = false;
   // P, by rows up to the diagonal, of the storage function that proves `needed`; empty where that rests on another one.
   std::optional<std::vector<std::vector<double>>> storage = {};
@@ -41,13 +41,13 @@ struct PassivityBound {
 struct Certificate {
   SampledLoop loop;
   PassivityBound bound;
-  double assured = 0;          // physical damping at the tool, at least, under the emitted brake command [N·s/m]
+  double assured = 0;  // lower bound of the physical damping at the tool under the emitted brake command [N·s/m]
   double minimum_damping = 0;  // the least that must be added to the brake, uncompensated, before anything is [N·s/m]
   double added_damping = 0;    // what has been added [N·s/m]
   bool certified = false;      // assured ≥ needed, compared exactly
   EnergyLemma energy;
-  MotorLimits limits;  // of the motor, beside what is above, which speaks of one that gives what it is asked for
-  double quantisation_stiffness = 0;        // 2 f_c/Δ [N/m]; 0 where the encoder's step or the friction is not stated
+  MotorLimits limits;                 // of the motor; all of the above assumes a motor that gives what it is asked for
+  double quantisation_stiffness = 0;  // 2 f_c/Δ [N/m]; 0 where the encoder's step or the friction is not stated
   std::optional<double> quantisation_gain;  // K, which friction pays for up to 2 f_c/Δ [N/m]; empty: not bounded
 };
 
@@ -61,30 +61,32 @@ std::string_view grade_of(const Certificate& certificate);
 // Why not, with the number that is missing, as one clause.
 std::string why_not_certified(const Certificate& certificate, motion port_motion);
 
-// In: a law's constants, the loop around it. Out: the strongest statement that covers them; with less than `most_terms`
-// one that is found sooner and may ask a little more.
+// In: a law's constants, the loop around it. Out: the strongest statement that covers them. With fewer `terms` than
+// `most_terms` it is found sooner, and may require a little more damping.
 PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop,
                                std::size_t terms = most_terms);
 
-// Of a law with slips or a contact, what `linear` needs, which reaches ground without a slip; and with what the slips
-// need, under the device's jitter, beside it.
+// For a law with slips or a contact: what its part `linear`, which reaches ground without a slip, needs; and that
+// together with what the slips need, under the device's jitter.
 PassivityBound bound_beside_slips(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop,
                                   std::size_t terms = most_terms);
 PassivityBound with_slips(PassivityBound beside, const SlipMotor& slips, const SampledLoop& loop);
 
-// x = ((S − b_device)/share − b)⁺: what the brake's command lacks, not below it; infinite where no command would do.
+// x = ((S − b_device)/share − b)⁺: the damping that the brake's command lacks, rounded up; infinite if no command is
+// enough.
 double missing_damping(const PassivityBound& bound, const SampledLoop& loop, double brake);
 
-// What the brake is told where the decomposition says `damping`: that, and on a device what passivity lacks, as far as
-// the brake reaches; a number of the scalar's type.
+// The brake's command for the b of the decomposition, `damping`: on a device with what passivity lacks added, as far as
+// the brake reaches. A number of the scalar's type.
 double brake_command(const PassivityBound& bound, const SampledLoop& loop, double damping, ScalarType scalar);
 
-// In: a law, the loop around it, what its motor makes behind slips. Out: its certificate. On a device, what passivity
-// lacks is added to the law's brake command, uncompensated, as far as the brake reaches: what is rendered is then D + x
-// s. Without one it is reported only.
+// In: a law, the loop around it, the motor's part behind slips. Out: its certificate. On a device, the damping that
+// passivity lacks is added to the law's brake command, uncompensated, as far as the brake reaches: what is rendered is
+// then D + x s. Without a device it is only reported.
 Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips);
 
-// The same for a search, without what is told beside: energy between samples, quantisation, limits of the motor.
+// The same for a search, without the rest of the certificate: energy between samples, quantisation, limits of the
+// motor.
 Certificate certify_in_search(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips);
 
 // Of a law with a number that is not finite, which is not emitted.

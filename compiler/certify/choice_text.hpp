@@ -8,7 +8,7 @@
 
 namespace dashpot::compiler {
 
-// What a network has beside its slips, of which alone an error over frequency speaks.
+// What a network has beside its slips: the error over frequency is that of this part alone.
 enum class Beside { no_slips, linear, nothing };
 
 // What `faithful` chose for.
@@ -29,7 +29,7 @@ std::string choice_in_words(const Decomposition& decomposition, const ChosenFor&
 // Which state input `faithful` came with.
 std::string reason_for_faithful(const Candidate& chosen, const Network& network, const Choices& choices);
 
-// What an estimate of the velocity costs a choice, however late it is.
+// The extra damping that a choice needs to be passive at any delay of the velocity estimate, as a clause.
 std::string at_any_delay(const Candidate& choice, const std::string& unit);
 
 // A share in per cent, without an exponent: "1346", "5.65".

@@ -179,7 +179,7 @@ std::optional<CommonStorage> least_for(const std::vector<HoldInequality>& holds,
     at.damping = std::max(at.damping, lack > 0 ? 2 * lack : lack / 2);
     by_slack.push_back(std::move(slack));
   }
-  // With the b that came in: how much is lacking at the least, in b's place; nothing, once it is below 0.
+  // Minimises the largest shortfall for the given b; done once it is below 0.
   at = least(by_slack, std::move(at), 1e-3);
   if (!(at.damping < 0)) return std::nullopt;
   at.damping = start.damping;
@@ -192,9 +192,9 @@ bool serves(const HoldInequality& hold, const CommonStorage& tried) {
   return log_determinant(tried.P) && log_determinant(matrix_of(hold, tried));
 }
 
-// Few of the holds ask for all that is needed: the search begins with the last, and takes in what is served least. In
-// coordinates in which `start` is one: else the P of states that the input hardly reaches grows so far beyond that of
-// the others that rounding ends the search.
+// Only few of the holds determine the result: the search begins with the last, and adds whichever is violated most. It
+// runs in coordinates in which `start` is the identity: otherwise the P of states that the input hardly reaches grows
+// so far beyond that of the others that rounding ends the search.
 std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequality>& holds, const CommonStorage& start,
                                                   double excess) {
   const Eigen::Index n = start.P.rows();

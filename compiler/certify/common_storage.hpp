@@ -25,9 +25,9 @@ struct CommonStorage {
 // Whether P ≻ 0 and M ≻ 0, as doubles tell.
 bool serves(const HoldInequality& hold, const CommonStorage& tried);
 
-// In: a positive P, which need not serve any hold, and a b that is large enough for some P. Out: the pair whose b is no
-// more than `excess` (relative) above the least, or what has been reached where rounding ends the search before that;
-// empty where no P is found for the b that came in.
+// In: a positive definite P, which need not satisfy the inequality of any hold, and a b that is large enough for some
+// P. Out: the pair whose b is no more than `excess` (relative) above the least, or the best that was reached if
+// rounding ends the search before; empty if no P is found for the given b.
 std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequality>& holds, const CommonStorage& start,
                                                   double excess);
 

@@ -1,5 +1,5 @@
-// Searches along a line of positive numbers, for functions that are convex there and claims that hold up to one place.
-// What is looked for may be a millionth of the line's length: places are found to a `precision` relative to themselves.
+// Searches over positive numbers for the minimum of a convex function, and for the boundary of a claim that holds up to
+// one place. The answer may be a millionth of the interval's length: `precision` is relative to the answer.
 #pragma once
 
 #include <algorithm>
@@ -7,15 +7,15 @@
 
 namespace dashpot::compiler {
 
-inline constexpr int most_search_steps = 150;  // of a place that is 0
+inline constexpr int most_search_steps = 150;  // reached only by an answer of 0, to which no relative precision applies
 
 struct LeastPlace {
   double place;
   double value;
 };
 
-// Towards the least of a convex function within (low, high), by golden section; left as soon as a value is at most
-// `enough`.
+// Searches for the minimum of a convex function within (low, high) by golden section; stops as soon as a value is at
+// most `enough`.
 template <class Function>
 LeastPlace golden_section(Function f, double low, double high, double enough, double precision) {
   const double golden = (std::sqrt(5.0) - 1) / 2;

@@ -1,5 +1,5 @@
-// The gate behind which the motors make a field that turns the tool (theory, section 12): whether a device has one, its
-// numbers, and how much passes.
+// The gate that limits the turning part of a viscous field, which the motors make (theory, section 12): whether a
+// device has one, its numbers, and how much passes.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace dashpot::compiler {
 
-// Why brakes cannot pay, sample by sample, for what couples them, as a clause; empty where they can.
+// Why brakes cannot pay, sample by sample, for the coupling between them, as a clause; empty if they can.
 std::string why_no_gate(const AxesDevice& device, axes::BrakeRule rule);
 
 // In: a device for which why_no_gate() is empty, what of its brakes is used up, and a viscous field. Empty where a
@@ -22,7 +22,7 @@ std::string why_no_gate(const AxesDevice& device, axes::BrakeRule rule);
 std::optional<axes::CurlGate> curl_gate(const AxesDevice& device, const std::vector<double>& added,
                                         const axes::ViscousField& viscous);
 
-// What passes of max(|r|, |σ|) of the field while the tool goes slowly through the workspace, in shares of 1.
+// The share of max(|r|, |σ|) of the field that passes while the tool moves slowly through the workspace [1].
 struct GatePassage {
   double mean, least;
   axes::Pair<double> least_at;  // tip [m]
@@ -30,8 +30,8 @@ struct GatePassage {
 GatePassage gate_passage(const axes::CurlGate& gate, const AxesDevice& device, const std::vector<double>& added,
                          const axes::ViscousField& viscous);
 
-// What is left of a brake's damping at the fastest that the joints go, and of that what it makes of its command at
-// least [1].
+// The share of a brake's damping that is left at the largest joint speeds; and the share of its command that it makes
+// there at least [1].
 double share_at_speed(const AlongBrake& brake, const AxesDevice& device);
 double assured_share(const AlongBrake& brake, const AxesDevice& device);
 

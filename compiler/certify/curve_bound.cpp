@@ -187,8 +187,8 @@ class CurveNeed {
     return sum;
   }
 
-  // With tunables it pulls by no more than it holds at 0, so that a curve that softens bends for nothing: but not where
-  // the tool may go through where it begins, beyond which it bends the other way.
+  // With tunables the static spring pulls by no more than it holds at 0, so that the curvature of a softening curve
+  // costs nothing: but not where the tool may pass the start of the curve, beyond which it is curved the other way.
   double cost_of_static_spring(double w, double from, double to, double curvature, double change) const {
     const double most = held_.of_static_spring(w, change), pull = held_.of_static_spring(0, change);
     if (!held_.is_tunable || from == 0) return most * curvature / 2;

@@ -21,7 +21,7 @@
 //
 //     ½ |w″| r c (w′ + ½ |w″| r / 2(1 − a)) / (1 + a)
 //
-// since what it stores falls by more than the bend can give where it is far from rest.
+// since far from rest its stored energy falls by more than the curvature of w can give.
 //
 // Where parameters change b_w is the least and S the largest over their ranges, and |M| is what springs and slips hold
 // at most, whatever is set and whenever (box_hold.hpp). A static spring that does not pull costs nothing where the

@@ -31,7 +31,7 @@ struct Cut {
 struct CutSettings {
   Scheme scheme;
   Real sample_period;  // [s]
-  double lateness;  // what the stiffness counts for: the damping that a cut asks for is stiffness·lateness² h + damping
+  double lateness;     // weight of the stiffness: a cut needs the damping stiffness·lateness² h + damping
 };
 
 Cut cut_of(const LinearForm& form, const CutSettings& settings);

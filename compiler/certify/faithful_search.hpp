@@ -1,13 +1,13 @@
 // The damping b that `faithful` gives to the brake, among all that the brake can give and all state inputs (theory,
 // section 4; faithful_rule.hpp).
 //
-// For one state input, what is felt errs by max |affine in (b, x)| over the band, a convex function of b and the
-// damping x that passivity adds. What the loop needs is a convex function of b too: that of every frequency is, and it
-// is the largest of them. So the dampings that can be certified are an interval, and so are those with x below a bound.
-// Between neighbouring places where x is known its chord is above it and the neighbours' chords prolonged are below it:
-// places are added until both agree where it matters. On each chord the error is convex in b alone, so that those
-// within the allowed error are an interval whose ends are found by bisection. No b is tried at random, and none between
-// is missed.
+// For one state input, the error of what is felt is max |an affine function of (b, x)| over the band, so a convex
+// function of b and of the damping x that passivity adds. The damping that the loop needs is convex in b too, as the
+// largest of functions that are convex in b, one for each frequency. So the dampings that can be certified form an
+// interval, and so do those with x below a bound. Between neighbouring places where x is known, its chord lies above x
+// and the prolonged chords of the neighbours lie below it: places are added until both agree where it matters. On each
+// chord the error is convex in b alone, so that the b within the allowed error form an interval, whose ends are found
+// by bisection. No b is tried at random, and none in between is missed.
 #pragma once
 
 #include <functional>

@@ -74,7 +74,7 @@ ModeForces mode_forces(const MotorConstants& motor, const Complex& difference) {
   return forces;
 }
 
-// What may be rounding of a difference of two such numbers is none.
+// A difference of two such numbers that may be due to rounding alone counts as none.
 Complex departure(const Complex& felt, const Complex& rendered) {
   const Complex error = felt - rendered;
   return std::abs(error) <= 8 * std::numeric_limits<double>::epsilon() * std::abs(rendered) ? Complex(0) : error;

@@ -1,5 +1,5 @@
-// What a displacement of the tool does while every slip holds: the gain to the tool's force and to what each slip has
-// to hold, for the encoder's step (quantisation.hpp).
+// The response to a displacement of the tool while every slip holds: the gain to the tool's force and to the force that
+// each slip has to hold, for the encoder's step (quantisation.hpp).
 //
 // A mode F ← a F + c δ is, with s = (1 − z⁻¹)/h, the Maxwell element c/a of the rate (1 − a)/(a h) by backward Euler.
 // So are all blocks together: with the slips' ends joined, one linear network whose transfers are k0 + b s + Σ k s/(s +

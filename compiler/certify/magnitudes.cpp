@@ -66,7 +66,8 @@ void Magnitudes::step() {
   bounds_ = then;
 }
 
-// Whatever a step does with the difference is looked at afterwards. Here it is enough that one case has the form.
+// find_anchors() only looks for the form, and one case that has it is enough: the difference is bounded afterwards,
+// whatever a step does with it.
 Anchors Magnitudes::find_anchors() {
   std::map<std::size_t, double> springs;
   in_every_case({&law_.output, &law_.keep, &law_.update}, [&] {

@@ -29,8 +29,8 @@ struct Amount {
   double low, high;
 };
 
-// How far the cases of a step are told apart. Where they are, what one takes away from another is seen; where there
-// are too many they are not.
+// How finely the cases of a step are told apart. Where they are, terms that cancel in a case cancel in its bound too;
+// where there are too many cases they are not told apart.
 enum class Detail {
   none,
   choices,  // of every `where`, and whether a surface is touched
@@ -57,9 +57,9 @@ class StepCases {
   std::size_t at_ = 0;
 };
 
-// What is bounded of a state x is x − Σ factor y, of other states y. Of a force that decays while its spring is
-// stretched, F ← a F + g (y⁺ − y): then F − (g/a) y is between bounds where y is, however slowly F decays. Of the sum
-// of some states: then it is what rounding leaves.
+// For a state x the bounded quantity is x − Σ factor y, of other states y. For a force that decays while its spring is
+// stretched, F ← a F + g (y⁺ − y), F − (g/a) y is bounded if y is, however slowly F decays. For a state that is a sum
+// of others the difference is what rounding leaves.
 struct Share {
   std::size_t at;  // y
   double factor;
@@ -85,8 +85,8 @@ class Magnitudes {
   std::size_t effort() const { return effort_; }  // statements and steps of coupled slips so far, in all cases
   double force();                                 // at most [N]
 
-  // How far below 0 and how far above each may be, one after the other; of a force with an error that is carried along,
-  // both together, of a state with an anchor, their difference.
+  // How far below 0 and how far above each state may be, one after the other. For a force with an error that is carried
+  // along these are bounds of their sum, for a state with an anchor of the difference.
   std::vector<double> states() const;
   void set_states(const std::vector<double>& flat);
 

@@ -37,7 +37,7 @@ struct MotorConstants {
   bool estimate_drives_modes() const;
 };
 
-// Without what it makes of the estimate.
+// The motor without its response to the estimate.
 MotorConstants position_driven(MotorConstants motor);
 
 // a, exactly.

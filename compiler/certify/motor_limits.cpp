@@ -53,7 +53,7 @@ Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& sli
   gains.position += slips->stiffness;
   gains.dampers = slips->damping;
   const bool is_late = loop.is_late();
-  // What a ramp takes back its own excess pays for, as long as it acts on the same hold.
+  // The compensation of a ramp is paid for by the brake's own excess, as long as both act on the same hold.
   add_estimate(slips->compensation + (is_late ? slips->held_compensation : 0), loop, gains);
   if (is_late && !slips->springs_alone)
     gains.hindrance = fmt::format("dampers are behind the slips, and {}", why_late(loop));
@@ -196,7 +196,7 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
     limits.needed = needed_by(gains, loop, slew_time);
     if (is_same_statement(gains, linear, slips, loop) && needed >= limits.needed * as_good_as_one)
       limits.needed = needed;
-    // Behind a contact the brake leaves a free tool alone, which touches late.
+    // Behind a contact the brake is off while the tool is free, and a touch is noticed late.
     const bool is_alone = slips && slips->behind_contact && loop.is_late();
     const Rational there = is_alone ? assured_damping(loop, 0) : assured;
     if (!std::isfinite(limits.needed) || Rational(limits.needed) > there) limits.available = there.convert_to<double>();

@@ -47,10 +47,10 @@ enum class Unbounded : unsigned char {
   nothing,   // one is known
   no_range,  // the encoder's range is not stated
   estimate,  // the motor follows the velocity's estimate
-  contact,   // so does the contact, to let go
-  dampers,   // are behind slips
-  tunables,  // change while it runs
-  curve,     // a static one lies in front of it
+  contact,   // the contact is released by an estimate of the velocity
+  dampers,   // there are dampers behind slips
+  tunables,  // parameters change while the law runs
+  curve,     // a static curve lies in front of the law
 };
 
 struct MotorLimits {
@@ -70,9 +70,9 @@ struct MotorLimits {
 MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& slips, const SampledLoop& loop,
                          double needed, const Rational& assured);
 
-// With tunables, which shed. What is proved for one sample wherever they are in their ranges does not ask how large the
-// forces are: it holds with all of them shrunk, as long as nothing of the sample before is still on its way. `needed`
-// as above, empty where nothing is proved.
+// With tunables, whose laws shed. What is proved for one sample at any values in their ranges does not depend on how
+// large the forces are: it holds with all of them shrunk too, as long as no command of an earlier sample is still on
+// its way. `needed` as above, empty if nothing is proved.
 MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<double>& needed,
                                   const Rational& assured);
 
@@ -81,8 +81,8 @@ MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<d
 std::optional<double> needed_sample_by_sample(const MotorConstants& linear, const std::optional<SlipMotor>& slips,
                                               const SampledLoop& loop);
 
-// In words, with the unit of damping; empty where it is covered. Sample by sample, which may be another number than the
-// certificate's: that one may be of all frequencies together.
+// Why the limits are not covered, with the unit of damping; empty if they are. The damping is that of the statement
+// sample by sample, which may differ from the certificate's, a statement over all frequencies.
 std::string why_not_covered(const MotorLimits& limits, const std::string& unit);
 
 // (k0 + Σ c_i) v T/(h − j) + Σ |F_i| (1 − a_i)/(h − j), not below it, of a linear law; empty where it is not bounded.

@@ -1,4 +1,4 @@
-// What another candidate would do better than the chosen one. The user's choice stands.
+// Notes on what another candidate would do better than the chosen one; they do not change the user's choice.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // What is stated of a linear law: the damping that a storage function proves (theory, section 6b), where one is found.
 //
-// The bound over frequencies serves searches, and what is no linear law. It is rigorous too, but a slow mode may cost
-// it a hundredth, and who wants to check it has to repeat it.
+// The bound over frequencies is used by searches, and for laws that are not linear. It is rigorous too, but with a slow
+// mode it may be a hundredth too large, and it can only be checked by repeating the computation.
 #pragma once
 
 #include "certify/certificate.hpp"
@@ -16,27 +16,27 @@ inline constexpr double most_storage_excess = 1e-8;
 // function proves, with its P; behind an amplifier's lag for punctual samples.
 PassivityBound proved_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop);
 
-// Of a bound that is proved for punctual samples alone, behind an amplifier's lag, what is under the device's jitter:
-// by one P for holds of all lengths, or sample by sample. By a P that is found soon where `enough` [N·s/m] is empty or
-// covers it, else by the best that is found. Other bounds as they are; not proved where nothing is.
+// For a bound that is proved for punctual samples only, behind an amplifier's lag: the bound under the device's jitter,
+// by one P for holds of all lengths, or sample by sample. If `enough` [N·s/m] is empty or covers it, a P that is found
+// quickly is used, else the best that is found. Other bounds are returned as they are; not proved if nothing is.
 PassivityBound under_jitter(PassivityBound bound, const MotorConstants& motor, const SampledLoop& loop,
                             std::optional<Rational> enough);
 
-// For a search, behind an amplifier's lag under jitter: what is necessary, since every hold may be the longest, is soon
-// known; what is proved asks for a few per cent beyond, which hardly depend on the damping. 1 where nothing is asked
-// for, infinite where nothing is proved.
+// For a search, behind an amplifier's lag under jitter. The damping that is necessary, since every hold may be the
+// longest, is quickly known; the damping that is proved is larger by a factor, the gap, of a few per cent that hardly
+// depends on the brake's damping. The gap is 1 if nothing is needed, infinite if nothing is proved.
 bool needs_jitter_gap(const SampledLoop& loop);
 double jitter_gap(const MotorConstants& motor, const SampledLoop& loop);
-// So many times what is necessary; of other loops passivity_bound(). Of what is beside slips, and of a law with slips,
-// what certify_in_search() does with it.
+// The necessary damping times `gap`; for other loops passivity_bound(). The same for what is beside slips; and for a
+// law with slips, what certify_in_search() finds with it.
 PassivityBound bound_by_gap(const MotorConstants& motor, const SampledLoop& loop, double gap,
                             std::size_t terms = most_terms);
 PassivityBound bound_beside_slips_by_gap(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop,
                                          double gap, std::size_t terms = most_terms);
 Certificate weighed_by_gap(UpdateLaw& law, const SampledLoop& loop, const SlipMotor& slips, double gap);
 
-// Both, for a law without slips that is told its brake command as it is; `there`: the damping that is assured without
-// anything added [N·s/m].
+// proved_bound(), then under_jitter(), for a law without slips whose brake gets its command unchanged; `there`: the
+// damping that is assured without any addition [N·s/m].
 PassivityBound stated_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop, const Rational& there);
 
 }  // namespace dashpot::compiler

@@ -12,8 +12,8 @@ struct SampledBound {
   std::size_t arcs = 0;  // that were looked at
 };
 
-// Of modes on arcs. A supremum hardly above the rounding of its terms could be looked for without end: after so many
-// the bound is left where it is, above it and less near.
+// Limit on the number of modes times arcs. The search for a supremum hardly above the rounding of its terms might never
+// end: after so many the bound is left as it is, above the supremum but less close.
 inline constexpr std::size_t most_terms = 400'000;
 inline constexpr double bound_precision = 4e-10;  // relative; and 1e-12 of the size of the terms, or rounding if larger
 

@@ -13,7 +13,7 @@ struct SampledLoop {
   double sample_period = 0;       // T [s]
   double jitter = 0;              // longest lateness of a sample [s]
   unsigned delay_samples = 0;     // n
-  double write_earliest = 0;      // of a command, behind its sample and n more, when it acts [s]
+  double write_earliest = 0;      // when a command acts at the earliest, counted from n samples after its own [s]
   double write_latest = 0;        // the same, at the latest [s]
   double amplifier_lag = 0;       // τ, first order [s]
   double tolerance = 0;           // ε of the brake [1]

@@ -1,5 +1,5 @@
-// The candidates weighed by what the sampled loop needs, and with it the choices that hang on it: the state input of
-// `auto`, and how much of a capped damping the motor makes (theory, sections 4 and 6).
+// Evaluates the candidates by the damping that the sampled loop needs, and makes the choices that depend on it: the
+// state input of `auto`, and how much of a capped damping the motor makes (theory, sections 4 and 6).
 #pragma once
 
 #include <map>
@@ -24,8 +24,8 @@ class CandidateSettler {
   // `faithful` gets its damping and its state input by faithful_rule.hpp.
   void settle(Candidate& candidate);
 
-  // Of what is felt of a candidate that is settled, at each of the frequencies [Hz], [1]; empty without a device.
-  // `added`: for passivity, where that is not what settle() found [N·s/m].
+  // The error of what is felt of a settled candidate, at each of the frequencies [Hz], [1]; empty without a device.
+  // `added`: the damping added for passivity, if it is not the one that settle() found [N·s/m].
   struct ErrorOverBand {
     std::vector<double> frequencies, errors;
   };
@@ -35,11 +35,11 @@ class CandidateSettler {
   void place(Candidate& candidate, double damping);
   // settle() without a choice: of the damping and the state input that the candidate has.
   void settle_at(Candidate& candidate);
-  // What jitter asks for beyond what is necessary (proved_bound.hpp) is looked at for the damping that settle()
-  // chooses; from here on it is taken for `gap`.
+  // By default the extra damping that jitter needs beyond what is necessary (proved_bound.hpp) is looked up at the
+  // damping that settle() chooses; after this call it is taken to be `gap`.
   void assume_jitter_gap(double gap);
   double last_jitter_gap() const { return gap_.value_or(1); }  // of the candidate that was settled last
-  // Of what is felt of a candidate with so much added to its damping [N·s/m], over the band [1].
+  // The largest error over the band of what is felt of a candidate with so much added to its damping [N·s/m], [1].
   double largest_error(const Candidate& candidate, double added);
 
  private:

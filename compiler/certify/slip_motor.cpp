@@ -36,7 +36,7 @@ std::vector<Real> feedthroughs(const ComponentSplit& split) {
   return all.empty() ? std::vector<Real>{0} : all;
 }
 
-// Whether a coil on its way is made up for by the motor: of a ramp it is not.
+// Whether the motor makes up for a brake whose coil lags: under the ramped law it does not.
 bool may_fall_short(const SlipDecomposition& slips) {
   const std::vector<const ComponentSplit*> all = slips.all();
   return slips.coil_share < 1 && std::any_of(all.begin(), all.end(), [](const ComponentSplit* split) {
@@ -50,8 +50,8 @@ class Sum {
       : network_(network), settings_(settings), half_step_(encoder_step / 2), margin_(1 + 16 * unit_roundoff(scalar)) {}
 
   // Every part has a cut: where slips alone join tool and ground the force is not unique, and the network was refused.
-  // `shares`: x of every regime; of a part behind a contact nothing, where the brake has some of the dampers, and none
-  // of them is the worst.
+  // `shares`: x of every regime; 0 for a part behind a contact, where the brake makes some of the dampers' force or, in
+  // the worst case, none.
   void add(const NormalTree& component, const std::vector<Real>& shares) {
     add(least_cut(component, settings_).value());
     add_held(held_slips(component, shares, settings_), shares);
@@ -112,7 +112,8 @@ class Sum {
     dampers_ += cut.damping;
   }
 
-  // Where the slip that holds all of the tool's force yields within a step, so little is left that K counts for more.
+  // If the slip that carries all of the tool's force yields within an encoder step, that force is so small that K
+  // bounds it anyway.
   void add_held(const HeldSlips& held, const std::vector<Real>& shares) {
     held_gain_ += held.gain;
     const bool is_motors = std::all_of(shares.begin(), shares.end(), [](const Real& x) { return x == 0; });

@@ -30,7 +30,7 @@ struct SlipMotor {
   double stiffness = 0;              // β of the cut [N/m], rounded up beyond what rounding of the constants does
   double damping = 0;                // b∞(cut) − min x [N·s/m], the same
   bool springs_alone = true;         // no damper crosses the cut
-  double held_compensation = 0;      // β v̂ that the brake's own excess pays for at any time, of a ramp [N·s/m]
+  double held_compensation = 0;      // β v̂ of a ramp, which the brake's own excess pays for at any time [N·s/m]
   double compensation = 0;           // of any other estimate of the velocity [N·s/m]
   bool lets_go_by_estimate = false;  // of a contact: the command ends where f′ + b∞ v̂ < 0
   double held_gain = 0;  // Σ|h_j| of what is behind slips or a contact, every slip holding (held_slips.hpp) [N/m]

@@ -12,7 +12,7 @@
 
 namespace dashpot::compiler {
 
-// What goes in: |position| and |velocity| at most.
+// The largest |position| and |velocity| that the law gets.
 struct InputRange {
   double position;  // [m]
   double velocity;  // [m/s]
@@ -29,7 +29,7 @@ struct CarriedError {
 };
 std::vector<CarriedError> carried_errors(const UpdateLaw& law);
 
-// As the class calls it.
+// The name of a state in the emitted class.
 std::string state_name(const Variable& state, std::size_t place);
 
 // Of a state, or of what is left of it when others are taken away, each times its factor.
@@ -40,8 +40,8 @@ struct StateBounds {
 };
 using StateBox = std::map<std::string, StateBounds>;
 
-// The least and the greatest of every state, by state_name(), when the law starts at rest; empty where magnitudes show
-// none though cases are told apart, and of tunables. A little wider than the fixed point, so that the rounding of a
+// The least and the greatest value of every state, by state_name(), when the law starts at rest; empty if no bounds are
+// found even with cases told apart, and for tunables. A little wider than the fixed point, so that the rounding of a
 // step stays within.
 std::optional<StateBox> state_box(const UpdateLaw& law, const InputRange& range);
 

@@ -583,8 +583,9 @@ std::optional<StorageProof> punctual_proof(const StorageSearch& search, double m
   return best;
 }
 
-// One P for holds of all lengths, behind an amplifier's lag or of intervals that vary. The P of the longest may serve
-// all where that asks for hardly more than is necessary, and of many states it has to.
+// One P for holds of all lengths, behind an amplifier's lag or for measured intervals that vary. The P of the longest
+// hold is taken if it serves all others with hardly more than the necessary damping, and always if there are many
+// states.
 std::optional<StorageProof> jittered_proof(const StorageSearch& search, bool is_soon) {
   constexpr double most_tried = 100;  // relative to the supremum
   constexpr double hardly_more = 1.01;

@@ -35,9 +35,9 @@ dashpot_check::Program checked_program(const MotorConstants& motor);
 // where the estimate divides by that length. One P has then to serve holds of all lengths.
 bool needs_one_for_all_holds(const MotorConstants& motor, const SampledLoop& loop);
 
-// Not more than 1e-8 above the supremum over all frequencies, if doubles do and samples are punctual, else as little
-// above as is found; with jitter times T_max/T, and where one P serves all holds next to what the best of them needs.
-// With `most` nothing is looked for much above that [N·s/m]. Empty where nothing is proved.
+// At most 1e-8 above the supremum over all frequencies if doubles suffice and samples are punctual, else as little
+// above it as is found; with jitter times T_max/T, and where one P must serve all holds close to what the best such P
+// needs. With `most`, dampings much above that are not looked for [N·s/m]. Empty if nothing is proved.
 std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop, double most = HUGE_VAL);
 
 // One P for all holds, as above. Found sooner, with up to a hundredth more damping, where that is no more than `enough`

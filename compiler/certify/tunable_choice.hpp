@@ -6,10 +6,11 @@
 
 namespace dashpot::compiler {
 
-// In: a decomposition whose candidate `faithful` is settled at the default values. That damping, b∞, which follows the
-// parameters and needs no estimate, and some between 0 and b∞ are weighed by what is felt at the default values with
-// what the certificate over the whole range of the parameters adds. Ensures: the candidate has the one that
-// faithful_rule.hpp takes, after the way from it to the next larger one has been halved three times.
+// In: a decomposition whose candidate `faithful` is settled at the default values. Compares that damping; b∞, which
+// follows the parameters and needs no estimate; and some values between 0 and b∞: by the error at the default values of
+// what is felt with the damping that the certificate over the whole range of the parameters adds. Ensures: the
+// candidate has the damping that faithful_rule.hpp takes, after the distance from it to the next larger one has been
+// halved three times.
 void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
                      const Choices& choices, const PortDevice& port, double rate);
 

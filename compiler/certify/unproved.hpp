@@ -1,4 +1,4 @@
-// Statements that are not made, and why.
+// Cases in which nothing is proved, and why.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ inline constexpr const char* overtaken =
 // Of an estimator that nothing is known of.
 std::string not_proved_for(const SampledLoop& loop);
 
-// The same bound where the device damps a free tool enough, which the brake leaves alone; else one that is not proved,
-// with what would be needed.
+// The same bound if the device's own damping is enough for a free tool, for which the brake is off; else one that is
+// not proved, with the damping that would be needed.
 PassivityBound of_a_free_tool(const PassivityBound& bound, const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

@@ -33,7 +33,7 @@ ExitStatus run_import(const Options& options, SourceFiles& files, Diagnostics& d
 ExitStatus run_export(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 
-// Says on standard error what there is to say, and forgets it.
+// Prints the diagnostics on standard error, and clears them.
 void tell(const Options& options, Diagnostics& diagnostics);
 
 // Refuses, with a diagnostic, where standard output cannot take the text: a full disk must not pass for success.
@@ -42,7 +42,7 @@ ExitStatus write_standard_output(const std::string& text, Diagnostics& diagnosti
 // To the file that --output names, else to standard output. Refuses, with a diagnostic, what cannot be written.
 ExitStatus write_output(const Options& options, const std::string& text, Diagnostics& diagnostics);
 
-// False, with a diagnostic, where what is to be written is one of the files that are read.
+// False, with a diagnostic, if an output would overwrite one of the input files.
 bool spares_inputs(const Options& options, const std::vector<std::string>& outputs, Diagnostics& diagnostics);
 
 // Refuses: what is no device of two axes.

@@ -5,7 +5,7 @@
 
 namespace dashpot::compiler {
 
-// True for a spring with Maxwell elements in parallel; says of anything else what a Prony series cannot be.
+// True for a spring with Maxwell elements in parallel; reports for anything else why it is no Prony series.
 bool is_prony_series(const Compilation& compilation, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

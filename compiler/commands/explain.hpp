@@ -11,7 +11,8 @@ namespace dashpot::compiler {
 std::string explain_text(const Compilation& compilation, bool with_legend);
 std::string explain_json(const Compilation& compilation);
 
-// Of what joins tool and ground without slips, and of what is behind slips in each of their regimes [1/s].
+// The fastest relaxation rate of what joins tool and ground without slips, and of what is behind slips in each regime
+// [1/s].
 double fastest_rate(const Compilation& compilation);
 
 }  // namespace dashpot::compiler

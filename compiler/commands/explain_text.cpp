@@ -117,7 +117,7 @@ std::string push_text(const Compilation& c, const PortUnits& units) {
   return "over 'valid'          " + text + "\n";
 }
 
-// With its slope all is felt that is not the curve itself.
+// How far off the slope of the map is, by which everything but the curve itself is felt.
 std::string slope_text(const MotionMap& map, const PortUnits& units) {
   std::string text = fmt::format(
       ", and the map's slope, with which slips, dampers and what relaxes are felt, by {:.2g} % of its largest",
@@ -288,7 +288,7 @@ std::string legend_of_lines(const std::string& text) {
   return all + fmt::format("{:<22}{}\n", "a | b, a - b", "elements beside each other, elements in series");
 }
 
-// Of the columns behind slips that are there.
+// Explains the columns behind slips that the text has.
 std::string legend_of_slips(const std::string& text) {
   struct Column {
     const char *table, *name, *meaning;

@@ -1,4 +1,4 @@
-// What a hand at the simulated device sets out to do.
+// The motion that a hand at the simulated device intends.
 #pragma once
 
 #include <dashpot/device_description.hpp>

@@ -50,7 +50,7 @@ struct FilledBrake {
 const char* damping_unit(bool rotary) { return rotary ? "N m s/rad" : "N s/m"; }
 const char* current_unit(bool rotary) { return rotary ? "N m s/(rad A^2)" : "N s/(m A^2)"; }
 
-// The words may each be a quantity and yet make none.
+// Quantities that are valid each may still give a brake whose numbers overflow or vanish.
 bool is_within_numbers(const FilledBrake& brake, bool rotary, Diagnostics& diagnostics) {
   const auto is_quantity = [&](const char* what, double value, const char* unit) {
     if (value > 0 && std::isfinite(value)) return true;

@@ -72,7 +72,7 @@ std::string commands_text(const servo_summary& summary, const PortUnits& units) 
       summary.largest_damping, units.damping);
 }
 
-// A board has a hand, chance and time of its own.
+// On a board hand, noise and time are real: --hand, --seed and --fast are for the simulated device only.
 bool asks_a_board_to_be_simulated(const Options& options, Diagnostics& diagnostics) {
   if (!options.port) return false;
   if (options.fast) diagnostics.report<DiagnosticCode::simulated_device_only>({}, "--fast");

@@ -1,5 +1,5 @@
-// A part with slips without the dampers that lie beside them: what the gated law computes, while the brake makes those
-// dampers' force (theory, section 5, (21)).
+// A part with slips without the dampers in parallel with a slip: what the gated law computes, while the brake makes the
+// force of those dampers (theory, section 5, (21)).
 #pragma once
 
 #include <optional>

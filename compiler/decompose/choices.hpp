@@ -11,8 +11,8 @@ namespace dashpot::compiler {
 enum class Scheme { exact, backward_euler };
 enum class StateInput { position, velocity, nodal };
 enum class ScalarType { float64, float32 };
-// What the choice is compared with, to be told of: nothing where it is only tried; other candidates; and itself where
-// what the device file assumes varies, which takes as long as all else.
+// What the choice is compared with in reports: nothing if it is only a trial; other candidates; or also the choices on
+// devices with the assumed values varied, which takes as long as everything else.
 enum class Compared { nothing, candidates, variations };
 // Of the machine that rolled loops are laid out for.
 enum class VectorRegisters { none, sse2, avx2, avx512, neon };
@@ -34,13 +34,13 @@ struct Choices {
   Compared compared = Compared::candidates;
   ScalarType scalar = ScalarType::float64;
   VectorRegisters registers = VectorRegisters::sse2;  // sixteen bytes: what every x86-64 and every AArch64 has
-  bool guards_each_sample = false;  // against subnormals, also where they could take turns: many points share no turn
+  bool guards_each_sample = false;                    // against subnormals, never in turns: for batches of many points
 };
 
 inline constexpr double default_rate = 1000;  // [Hz]
 
-// The choices with a decomposition that has its name: "most-dissipative" is the old one of "paper", and without any the
-// default is there, `faithful` where `prefers_faithful`.
+// The choices with the decomposition's current name: "most-dissipative" is the old name of "paper"; if none is given,
+// the default, which is `faithful` if `prefers_faithful`.
 Choices with_names(Choices choices, bool prefers_faithful);
 
 // Whether the decomposition is called so.

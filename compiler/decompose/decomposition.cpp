@@ -365,7 +365,7 @@ std::string legend(bool has_device) {
 
 namespace {
 
-// The gap at the tool behind whose map it is so much; 0 where the map does not go as far.
+// The gap at the tool for a gap behind the map; 0 if the map does not reach so far.
 double gap_at_tool(const MotionMap& map, double gap) {
   double inside = 0, beyond = map.reach;
   if (map.value_at(beyond) < gap) return 0;

@@ -84,7 +84,7 @@ std::string reason_for_only_input(const Candidate& chosen, const Network& networ
 // True, with a diagnostic, for choices that no network can satisfy: nodal states with the exact scheme.
 bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics);
 
-// What rows with * are, beside the chosen one, where a network has tunables.
+// What the mark * of a row means, beside the chosen one's, for a network with tunables.
 std::string_view meaning_of_marks();
 std::string candidates_text(const Decomposition& decomposition, const Network& network);
 std::string chosen_text(const Decomposition& decomposition);

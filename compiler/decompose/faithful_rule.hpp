@@ -1,5 +1,5 @@
-// Which of several ways to share a network's force between brake and motor is taken by `faithful`: of those that are
-// still the tissue, the one whose brake does most (theory, section 4).
+// The rule of `faithful`: among several ways to share a network's force between brake and motor that still feel like
+// the tissue, it takes the one whose brake does most (theory, section 4).
 #pragma once
 
 #include <cstddef>
@@ -31,14 +31,14 @@ inline constexpr double leeway = 1.05;  // on the least reachable error, and on 
 // max(tolerance, 1.05 × least)
 double allowed_error(double tolerance, double least_error);
 
-// But for what its own rounding may add.
+// Whether the error is allowed, but for rounding.
 bool is_within(double error, double allowed);
 
 // Among all options with an error of at most max(`tolerance`, 1.05 × the least reachable), those that are certified
 // with at most 1.05 × the least added damping among these; of them the largest b; of equal b the least motor noise,
-// then the least error, then the first. An error that only options reach which cannot be certified shuts out none that
-// can: the least reachable is then that of the certified ones. Where none at all is certified, the same without that
-// filter. Requires: one option at least.
+// then the least error, then the first. An error that only uncertified options reach does not exclude a certified one:
+// the least reachable is then that of the certified options. If none is certified, the same without that filter.
+// Requires: one option at least.
 FaithfulChoice choose_faithful(const std::vector<EvaluatedOption>& options, double tolerance);
 
 }  // namespace dashpot::compiler

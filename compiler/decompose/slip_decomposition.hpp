@@ -24,7 +24,7 @@ inline constexpr SlipLaw laws_to_choose_from[] = {SlipLaw::velocity_free, SlipLa
 // What is asked of all parts alike.
 struct SlipPlan {
   SlipLaw law = SlipLaw::velocity_free;
-  double excess = 1;         // of the steady law, the share of what it could take beyond the largest b∞ [1]
+  double excess = 1;  // of the steady law: the share that it takes of what it could take beyond the largest b∞ [1]
   double estimate_gain = 1;  // γ of ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, not below it; infinite where none is known [1]
   double reserve = 0;        // of the brake, what is kept for passivity [N·s/m]
 };
@@ -96,8 +96,8 @@ struct SlipDecomposition {
   std::vector<SlipRunError> runs;        // of the choice; none where it has not been run
   double hysteresis = 0;                 // displacement that does not end a slide for the command [m]
   unsigned memory = 0;                   // N + n: samples that an estimate reaches back from the hold that it acts in
-  double ramp = 1;                       // ρ: what the way of a ramp makes in a sample at most, of the whole [1]
-  double coil_share = 1;     // κ: of what is missing from √b, that the coil makes up in a sample at least [1]
+  double ramp = 1;           // ρ: the largest step of a ramp in one sample, as a share of its whole length [1]
+  double coil_share = 1;     // κ: the least share of the difference in √b that the coil covers in a sample [1]
   double assured_share = 0;  // of a damping that no slip changes, what an estimate may make up for; 0 for none [1]
   double make_up = 0;        // what the motor may add or take of a brake on its way, β at most [N·s/m]
 

@@ -131,7 +131,7 @@ SlipDecomposition SlipDecomposer::decomposed(const Candidate& linear_part, const
   slips.coil_share = coil_share(device, std::sqrt(span));
   slips.assured_share = assured_share(device);
   slips.make_up = make_up(linear_part, device);
-  // Within the hold in which a coil is told something it is not there yet.
+  // Within the hold in which a coil gets a command it has not reached it yet.
   slips.memory = device.estimate_memory().value_or(0) + (slips.coil_share < 1 ? 1 : 0);
   slips.ramp = ramp_of(slips.memory, slips.coil_share);
   return slips;

@@ -17,18 +17,18 @@
 
 namespace dashpot::compiler {
 
-// Of the excess that a ramp leads to, what stays uncompensated because the estimate reaches back, and what more does
-// while the coil is on its way [1].
+// Of the final excess of a ramp, the share that may stay uncompensated because the estimate reaches back; and the
+// further share that may while the coil lags [1].
 inline constexpr double ramp_error = 0.01;
 inline constexpr double ramp_error_of_coil = 0.04;
 
-// How far a displacement must go back before the command takes the slips for stuck, in steps of the encoder.
+// How far the tool must move back before the command takes the slips for stuck, in encoder steps.
 inline constexpr double hysteresis_steps = 1.5;
 
 std::string_view name_of(SlipLaw law);
 
-// The law that a name of --decomposition (with_names) asks for; none where a run decides. A damping and `virtual`: all
-// by the motor.
+// The law that a name of --decomposition (with_names) asks for; empty if runs decide. For a damping and for `virtual`
+// the motor makes everything.
 std::optional<SlipLaw> slip_law_asked_for(const Choices& choices);
 
 // All parts of a network that are behind slips; none where it has none. What every plan begins with, the regimes, is

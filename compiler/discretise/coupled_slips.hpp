@@ -22,14 +22,14 @@ class CoupledSlips {
   void keep_elsewhere(const NormalTree& block);
   void set_held_elsewhere(VariableId held) { held_elsewhere_ = held; }
 
-  // Which slips give way is then known to the rest of the law.
+  // Lets the rest of the law know which slips give way.
   void follow_signs() { has_signs_ = true; }
 
   double smallest_loss() const;  // min (1 − a) over all modes; 1 without
   void declare();                // to be called when the law's mode form is settled
 
-  // The component's force, from the tool's displacement in this sample. Where the tool pushes and cannot pull, that is
-  // what the surface's change would be if it stuck to the tool, and `surface_change` becomes what it is.
+  // The component's force, from the tool's displacement in this sample. Where the tool pushes and cannot pull, `change`
+  // is what the surface's change would be if it stuck to the tool, and `surface_change` gets the actual one.
   ExpressionId write_output(VariableId change, VariableId surface_change = nothing);
   void write_update();
   ExpressionId energy();  // nothing without springs

@@ -162,7 +162,8 @@ class LawBuilder {
     return force;
   }
 
-  // b∞ − b. Where the brake's number is b∞, rounded, nothing is left that a velocity estimate should be read for.
+  // b∞ − b. If the brake's command is b∞ but for rounding, the result is 0: no velocity estimate should be needed for
+  // it.
   Real feedthrough_of_motor() const {
     const bool all_in_brake = rounded(form_.feedthrough_damping, law_.scalar) == linear_damping_;
     return all_in_brake ? Real(0) : Real(form_.feedthrough_damping - Real(linear_damping_));
@@ -171,7 +172,7 @@ class LawBuilder {
   void write_update() {
     slips_.write_update(change_);
     brake_.write_update(contact_ ? contact_->released() : no_variable);
-    // One after the other, so that every compiler has the states in the same order.
+    // Separate statements, so that every compiler creates the states in the same order.
     const VariableId velocity = modes_.follows_velocity() ? writer_.kept(law_.velocity) : nothing;
     const VariableId change = modes_.follows_position() ? writer_.kept(change_) : nothing;
     modes_.write_update(change, velocity);
@@ -196,7 +197,7 @@ class LawBuilder {
     writer_.assign(law_.energy, law_.stored, sum, "V = ½ k0 u² + Σ F_i²/(2 k_i)", {effective_elements(network_)});
   }
 
-  // Terms whose coefficient rounds to zero leave no trace in the program.
+  // A term whose coefficient rounds to zero is left out of the program.
   ExpressionId plus_product(ConstantRole role, ExpressionId sum, const std::string& name, const std::string& unit,
                             const std::string& meaning, const Real& value, VariableId variable) {
     if (rounded(value, law_.scalar) == 0) return sum;

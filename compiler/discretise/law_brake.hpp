@@ -1,4 +1,4 @@
-// What the brake is told, and what it leaves to the motor: the sums over all parts with slips.
+// The brake's command, and what it leaves to the motor: the sums over all parts with slips.
 #pragma once
 
 #include "discretise/contact_surface.hpp"

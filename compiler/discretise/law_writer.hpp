@@ -23,8 +23,8 @@ double rounded(const Real& value, ScalarType scalar);
 // One emitted name a place, for vectors: "B1_K1" gives "B1_K1_force", …
 using Names = std::vector<std::string>;
 
-// What a vector holds, and whose it is where several vectors hold the same: the vector is called by both, its places by
-// their own name and `what`.
+// The name of a vector: what it holds and, where several vectors hold the same, whose it is. The vector is named by
+// both, its places by their own names and `what`.
 struct VectorName {
   std::string whose;
   std::string what;
@@ -90,7 +90,7 @@ class LawWriter {
                          Derivation from = ConstantRole::brake_choice);
   std::size_t new_bank() { return ++last_bank_; }
 
-  // A table, and the place of it that an expression says.
+  // The entry of a table that an expression selects.
   ExpressionId pick(const std::string& name, const std::string& unit, const std::string& meaning,
                     const std::vector<Real>& values, ExpressionId place, Derivation from = ConstantRole::brake_choice);
 

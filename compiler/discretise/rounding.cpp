@@ -11,9 +11,9 @@ double largest_finite(ScalarType scalar) {
   return scalar == ScalarType::float64 ? std::numeric_limits<double>::max() : double(std::numeric_limits<float>::max());
 }
 
-// An error decays at the rate α, so that 1/α equal ones add up. Product: the rounding of aF, of the sum, and of `a`
-// itself are each relative to F. Delta: only the sum's is; αF, α, the gain and its product are relative to what they
-// add. Compensated: the sum's is carried to the second order.
+// An error decays at the rate α, so that 1/α equal ones add up. Product form: the roundings of aF, of the sum and of
+// `a` itself are each relative to F. Delta form: only the sum's is; those of αF, α, the gain and its product are
+// relative to what these add. Compensated form: the sum's error is carried along to second order.
 double error_bound(ModeForm form, double loss, double roundoff) {
   switch (form) {
     case ModeForm::product: return 3 * roundoff / loss + 2 * roundoff;

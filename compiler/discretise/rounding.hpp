@@ -18,8 +18,9 @@ ModeForm cheapest_form(double smallest_loss, ScalarType scalar);
 // normal [N].
 double flush_threshold(ScalarType scalar);
 
-// For how many samples a force that decays by `decay` in each can go without a guard: from the threshold it may come
-// down to 2^-400 in double, whose square is normal. 0 in float, where the threshold's own is the last that is.
+// The number of samples for which a force that is multiplied by `decay` in each can go without a guard: from the
+// threshold it may fall to 2^-400 in double, whose square is still normal. 0 in float, where the threshold's own square
+// is the last that is.
 std::size_t samples_without_guard(double decay, ScalarType scalar);
 
 // Constants below are set to zero: their product with a kept force would be subnormal, and nothing would be left of it.

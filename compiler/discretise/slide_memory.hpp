@@ -1,12 +1,12 @@
-// Which slips the brake's command takes for sliding: for it a slide ends where the tool has gone 1.5 steps of the
-// encoder, to either side, and the slip not with it.
+// Which slips count as sliding for the brake's command: once a slip holds again, it counts as sliding until the tool
+// has moved 1.5 encoder steps to either side.
 #pragma once
 
 #include "discretise/law_writer.hpp"
 
 namespace dashpot::compiler {
 
-// What is 1 for a slip that gives way and 0 for one that holds.
+// The constants 1 for a slip that gives way and 0 for one that holds.
 inline ExpressionId slid(LawWriter& writer) { return writer.constant("slid", "1", "a slip that gives way", 1); }
 inline ExpressionId held(LawWriter& writer) { return writer.constant("held", "1", "a slip that holds", 0); }
 

@@ -28,7 +28,7 @@ class SlipBrake {
 
   // `split`: nothing for the brake where it is none. Outlives this.
   void add(const ComponentSplit* split);
-  // Places go together where the same of their shares change.
+  // Places of one shape share their code: the same of their shares change.
   struct Shape {
     bool changes = false, is_ramped = false, begins_with_least = false;
 
@@ -46,7 +46,7 @@ class SlipBrake {
   void write_output(const std::vector<ExpressionId>& slides, VariableId position);
   // f′ from f, of a single place: what is taken is x Δu/h.
   ExpressionId without_feedthrough(ExpressionId force, VariableId change, const Real& sample_period);
-  // `released`: of a contact, above 0 where the tool is free, which ends what has been earned; else no variable.
+  // `released`: of a contact, above 0 while the tool is free, which resets the ramp; else no variable.
   void write_update(VariableId released);
 
   VariableId changing_damping() const { return damping_; }   // `nothing` where it does not change

@@ -62,8 +62,8 @@ void SlipParts::add(const std::vector<std::size_t>& elements, bool is_pushed) {
   networks_.push_back(std::make_unique<NetworkedSlips>(writer_, network_, sample_period_, elements, is_pushed));
 }
 
-// Where the surface goes depends on all that is behind it: one tree, in which the states of the linear part at the tool
-// stay where they are without slips.
+// How the surface moves depends on all that is behind it, so that is one tree, in which the states of the linear part
+// at the tool are the same as without slips.
 void SlipParts::add_behind_contact(const NormalForm& form) {
   if (!form.networks.empty()) {
     add(settings_.networks.empty() ? elements_behind_slips(form) : settings_.networks.front().rendered_elements, true);

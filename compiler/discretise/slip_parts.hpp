@@ -1,5 +1,5 @@
-// All that is behind slips, as parts of a law: components with one slip each in groups, trees of coupled slips,
-// networks of others; and what those that are solved together ask of the brake.
+// All parts of a law behind slips: components with one slip each, in groups; trees of coupled slips; networks of
+// others; and the brake's command for those that are solved together.
 #pragma once
 
 #include <memory>
@@ -31,7 +31,8 @@ class SlipParts {
 
   const std::vector<std::unique_ptr<SlipGroup>>& groups() const { return groups_; }
 
-  // Slips that are solved together and what they ask of the brake. Of the two that know the signs one is there.
+  // Slips that are solved together and their share in the brake. Exactly one of the two solvers, which know the signs,
+  // is there.
   struct Braked {
     std::unique_ptr<SlipBrake> brake;
     CoupledSlips* tree;

@@ -10,7 +10,7 @@
 
 namespace dashpot::compiler {
 
-// The same network with what its tunables' values let no force through marked as without effect.
+// The same network, with elements that transmit no force at the tunables' default values marked as without effect.
 Network at_default(const Network& network);
 
 // In: a network with tunables; its linear part and its canonical form at the default values, the decomposition chosen

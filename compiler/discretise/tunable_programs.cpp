@@ -144,10 +144,10 @@ class ProgramsBuilder {
   void write_brake_rule() {
     feedthrough_ = named("feedthrough_damping", writer_.damping(), "b∞ of what no slip changes", feedthrough_, "b∞");
     ExpressionId brake = followed();
-    // What is told of the brake later, by a certificate, is told by a constant.
+    // The brake's limit is a constant, which the certificate may still change.
     if (tables_.brake.max_damping < largest_finite(law_.scalar))
       brake = least_of(named("wanted_brake", writer_.damping(), "b, were there no limit", brake, ""), reach());
-    // Where a surface can be left the motor compensates nothing.
+    // Where a surface can be left the motor compensates nothing, so that b is at most b∞.
     if (head_.contact.is_there) brake = least_of(brake, feedthrough_);
     steady_brake_ = tuned("steady_brake", writer_.damping(), "b of what no slip changes");
     writer_.assign(law_.tune, steady_brake_, brake, "b follows " + tables_.brake.text);
@@ -183,7 +183,7 @@ class ProgramsBuilder {
     return constant;
   }
 
-  // Of a coil on its way the motor makes up no more than is assured of b.
+  // While the coil lags, the motor makes up no more than the share of b that is assured.
   void write_make_up() {
     const ExpressionId gain = writer_.read(velocity_gain_);
     const ExpressionId size = writer_.where(gain, gain, writer_.subtract(none(), gain));

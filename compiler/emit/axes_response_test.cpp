@@ -37,7 +37,7 @@ Rounded operator/(const Rounded& a, const Rounded& b) {
   const double quotient = a.value / b.value;
   return {quotient, (a.error + std::abs(quotient) * b.error) / std::abs(b.value) + std::abs(quotient)};
 }
-// Right to a few units, as the root that is rounded to nearest surely is.
+// Allows the root an error of a few units; a correctly rounded one has less.
 Rounded sqrt(const Rounded& a) {
   const double root = std::sqrt(a.value);
   return {root, a.error / (2 * root) + 4 * root};
@@ -60,7 +60,7 @@ Depth<Rounded> depth(const Grid& grid, const Pair<Rounded>& x) {
   return bicubic(c, x[0] - Rounded(corner(grid, 0, column)), x[1] - Rounded(corner(grid, 1, row)));
 }
 
-// Between knots as steep as a thousandth of their spacing farther on.
+// Between knots the slopes are taken over a thousandth of their spacing, to either side.
 Matrix<Rounded> field_at(const ViscousField& field, const Pair<Rounded>& x) {
   const Pair<double> tip{x[0].value, x[1].value};
   const Matrix<double> here = field_at(field, tip);
@@ -104,7 +104,7 @@ void add_port(const Compilation& port, const axes::Depth<Rounded>& depth, const 
   if (contact && w.value < 0) w = Rounded(0, w.error);
   const Rounded stiffness(to_double(form.static_stiffness));
   Rounded force = stiffness * w;
-  // reset() and output() may be off by other roundings of w, to which everything that relaxes answers as a spring.
+  // reset() and output() may round w differently, and everything that relaxes answers the difference as a spring.
   for (const Mode& mode : form.modes) force.error += 2 * to_double(mode.stiffness) * w.error;
   for (std::size_t j = 0; j < 2; ++j) sum.torque[j] = sum.torque[j] + gradient[j] * force;
   sum.energy = sum.energy + Rounded(0.5) * stiffness * w * w;

@@ -14,7 +14,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// For who has not read the theory: the words that the sentences of the compiler's stages use, of those that are there.
+// For readers who do not know the theory: explains those terms of the compiler's sentences that occur in `facts`.
 std::string words_in(const std::vector<std::string>& facts) {
   const auto are_used = [&](std::string_view word) {
     return std::any_of(facts.begin(), facts.end(),

@@ -10,7 +10,7 @@
 
 namespace dashpot::compiler {
 
-// The author's words stay in the comment that they are put in: they hold no end of line, and no backslash at one.
+// The author's text as it may stand in a comment: without line ends, and without a backslash where a line ends.
 std::string comment_text(std::string text);
 
 // What stands between the quotes of a string in C and C++.

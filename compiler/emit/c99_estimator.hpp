@@ -8,7 +8,7 @@
 
 namespace dashpot::compiler {
 
-// What the lines of an estimator need before them.
+// Whether the lines of an estimator need the command header in front of them.
 bool needs_command_header(estimator_kind estimator);
 
 // A type `name`, <name>_reset() and <name>_update(): any_estimator<double> of a description without a fault, with all

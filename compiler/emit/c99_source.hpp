@@ -10,7 +10,7 @@
 
 namespace dashpot::compiler {
 
-// What the struct is called and its functions begin with: no name of a header or of a tool, whatever the network's
+// The name of the struct and the prefix of its functions: no name of a header or of a tool, whatever the network's
 // name.
 std::string c99_name(const Compilation& compilation);
 

@@ -130,7 +130,7 @@ class CppPrinter {
     lines.push_back(fmt::format("scalar kept_share() const noexcept {{ return {}; }}", name_of(law_.share)));
   }
 
-  // What is kept of a NaN or infinite sample is what was there before.
+  // Nothing is kept of a sample that is not finite: the previous values stay.
   void check_by_masks(CppProgram& program) const {
     program.check = {fmt::format("sampled_ = dashpot::all_finite(position, velocity, {});", name_of(law_.checked())),
                      "const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);"};

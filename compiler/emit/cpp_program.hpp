@@ -29,7 +29,7 @@ struct CppProgram {
   std::vector<std::string> energy;
 };
 
-// Whether steps may decide by jumps, which are free where they are predicted, or take the same time for all values.
+// Whether the code may branch, which costs nothing if branches are predicted, or takes the same time for all values.
 enum class Timing { any, constant };
 
 // In constant time: laws without couplings, networks and calls.

@@ -17,7 +17,7 @@ class CppStatements {
   // Both outlive this.
   CppStatements(const UpdateLaw& law, const Network& network, Timing timing);
 
-  // Where a variable is a key of `given`, what it was copied from is read in its place.
+  // A variable that is a key of `given` is replaced by the one that it was copied from.
   std::vector<std::string> lines_of(const std::vector<Statement>& program,
                                     const std::map<VariableId, VariableId>& given = {});
   // The same of a program that assigns to states: in constant time only where the mask `sampled` is set.

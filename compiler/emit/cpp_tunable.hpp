@@ -13,7 +13,7 @@ namespace dashpot::compiler {
 std::vector<std::string> parameters_of(const UpdateLaw& law);
 std::vector<std::string> set_of(const UpdateLaw& law, const std::vector<std::string>& program);
 
-// The beginning of set(): `wanted` becomes the parameters, and `clamped` says of which it could not.
+// The beginning of set(): the parameters become `wanted`, and `clamped` tells which of them could not.
 std::vector<std::string> taken_values(const UpdateLaw& law);
 
 // The ranges of the parameters; nothing of a law without tunables.

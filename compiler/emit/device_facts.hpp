@@ -19,7 +19,7 @@ struct DeviceFact {
 // Every field of the description.
 std::vector<DeviceFact> all_facts(const device_description& device, DeviceLanguage language);
 
-// Those that take part where a motion is known.
+// Those that matter for a device that is led along a known motion.
 std::vector<DeviceFact> facts_of_led_device(const device_description& device);
 
 }  // namespace dashpot::compiler

@@ -5,7 +5,7 @@
 
 namespace dashpot::compiler {
 
-// Refuses, in constant time, coupled slips: their solvers' steps take as long as their values have it.
+// Refuses coupled slips in constant time: the time that their solvers take depends on the values.
 bool can_be_timed(const Compilation& compilation, Diagnostics& diagnostics);
 
 // Refuses, in C99, names that C or <dashpot/command.h> keeps: the network's name is also that of a type.

@@ -5,9 +5,9 @@
 
 namespace dashpot::compiler::fitting {
 
-// n_e = max(12, n/(1 + 2Σρ_k)), ρ_k the autocorrelation of what a model leaves, summed over Geyer's pairs
+// n_e = max(12, n/(1 + 2Σρ_k)), ρ_k the autocorrelation of a model's residuals, summed over Geyer's pairs
 // ρ_2k + ρ_2k+1 > 0 (Geyer 1992, Statist. Sci. 7:473), pooled over the files; storage and loss are files of their own.
-// Rows that follow each other much faster than anything happens say little that is new.
+// Rows that follow each other much faster than anything happens carry little new information.
 double effective_samples(const Problem& problem, const Model& model);
 
 // The same of what a model leaves in one run of rows.

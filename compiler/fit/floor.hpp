@@ -18,7 +18,7 @@ TimeRange resolved_thresholds(const Problem& problem);
 // Logarithmically even, both ends included, at least `per_decade` of them in each decade.
 std::vector<double> even_grid(const TimeRange& range, double per_decade);
 
-// Weights of fixed terms: what is left is convex. Gains stay as they are given, 1 where there are none.
+// Solves for the weights of fixed terms, which is a convex problem. Gains stay as they are given, 1 if there are none.
 Model solve_weights(const Problem& problem, std::vector<Term> terms, std::vector<double> gains,
                     const std::optional<CurveShape>& curve = {});
 

@@ -152,7 +152,7 @@ std::vector<Model> block_bootstrap(const Problem& problem, const Model& model, d
                                    int draws) {
   VectorXd left = residual(problem, model);
   const VectorXd fitted = problem.target() - left;
-  // Around zero in each file: what a model leaves on average would move every draw the same way.
+  // The residuals are centred in each file: a mean that the model leaves would move every draw the same way.
   for (const Block& block : problem.blocks())
     if (block.count > 0)
       left.segment(block.begin, block.count).array() -= left.segment(block.begin, block.count).mean();

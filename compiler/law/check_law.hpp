@@ -1,4 +1,4 @@
-// Whether a law is one: armed in every build, behind each pass that makes or changes one.
+// Whether a law is well formed: checked in every build, after each pass that makes or changes one.
 #pragma once
 
 #include <string_view>

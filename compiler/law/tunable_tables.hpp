@@ -21,18 +21,18 @@ struct Variable;
 
 // What a call stands for.
 enum class Callee : std::uint8_t {
-  set,            // with the law's numbers: g of what joins tool and ground without a slip, but for dampers and meshes
-  meshes,         // what that has found of the meshes among them
-  viscosity,      // theirs at low frequency, with the law's numbers
-  held,           // π of all that joins tool and ground without a slip
-  reset,          // at rest at a position: π
-  resting_brake,  // then what slips leave to a brake that has so much left for them
-  slip,           // of all slips, by a change: the force
-  push,           // of all behind a surface, by its approach: the force and the surface's change
-  slip_brake,     // what slips leave to it, by the tool's position and what it has left for them
-  limit,          // of the motor, by what is wanted of it: the force and the share that is kept of all
-  follow,         // where a surface stands, which would be at a place, with the tool at a depth
-  update,         // of the states, by a change to a place: the force that is held
+  set,        // given the law's numbers: g of what joins tool and ground without a slip, apart from dampers and meshes
+  meshes,     // after `set`: what it has found for the meshes there
+  viscosity,  // given the law's numbers: the meshes' viscosity at low frequency
+  held,       // π of all that joins tool and ground without a slip
+  reset,      // given a position at which the law rests: π
+  resting_brake,  // after `reset`, given what the brake has left for slips: the damping that they leave to it
+  slip,           // given a change: the force of all slips
+  push,           // given the approach to a surface: the force of all behind it and the surface's change
+  slip_brake,     // given the tool's position and what the brake has left for slips: the damping that they leave to it
+  limit,          // given the wanted force: the force within the motor's limits and the share that is kept of all
+  follow,         // given where a surface would be and the tool's depth: where it is
+  update,         // of the states, given a change to a place: the force that is held
   stored_energy,  // in the springs, and set free by changes of parameters
 };
 
@@ -217,7 +217,7 @@ struct TunableTables {
   std::vector<TunableNumber> numbers;
   std::vector<int> springs;
   std::vector<std::string> spring_names;              // for remarks
-  std::vector<std::optional<FixedRelaxation>> fixed;  // one a spring; none of those that a parameter touches
+  std::vector<std::optional<FixedRelaxation>> fixed;  // one for each spring; empty if a parameter changes it
   std::vector<BlockPart> parts;
   std::vector<MeshEdge> edges;
   std::vector<TunableBlock> blocks;
@@ -242,8 +242,8 @@ struct TunableTables {
   bool sheds() const { return head.motor_limit > 0 || head.motor_step > 0; }
 };
 
-// Refused beyond: set() tells of each parameter by a bit, what mixes several relaxations grows with the third power of
-// their nodes, and slips outside a tree have thrice the patterns with each.
+// Larger networks are refused: set() reports each parameter by a bit, the work for a mesh of relaxations grows with the
+// third power of its nodes, and each slip outside a tree triples the number of patterns.
 inline constexpr int most_tunables = 32, most_tunable_nodes = 32, most_tunable_slips = 8, most_tunable_ends = 16;
 
 }  // namespace dashpot::compiler

@@ -15,7 +15,8 @@ inline std::span<const ExpressionId> operands(const Expression& expression) {
   return std::span(expression.operands).first(facts_of(expression.operation).operands);
 }
 
-// An expression and all below it, operands after what works on them; nothing of what a call has instead of one.
+// Visits an expression and all its operands, each after the one that uses it; nothing for a call, which has no
+// expression.
 template <class Visit>
 void each_expression(const UpdateLaw& law, ExpressionId id, const Visit& visit) {
   if (id == nothing) return;
@@ -24,7 +25,7 @@ void each_expression(const UpdateLaw& law, ExpressionId id, const Visit& visit) 
   for (ExpressionId operand : operands(expression)) each_expression(law, operand, visit);
 }
 
-// Those of a statement: its value, or what its call is given.
+// The same for a statement: its value, or the arguments of its call.
 template <class Visit>
 void each_expression(const UpdateLaw& law, const Statement& statement, const Visit& visit) {
   each_expression(law, statement.value, visit);
@@ -34,16 +35,16 @@ void each_expression(const UpdateLaw& law, const Statement& statement, const Vis
 
 using VisitVariable = std::function<void(VariableId)>;
 
-// The variables that an expression reads, each as often as it does.
+// Visits the variables that an expression reads, each as often as it is read.
 void each_read(const UpdateLaw& law, ExpressionId id, const VisitVariable& visit);
-// Those that a statement reads: of its value, and what a solver takes beside it.
+// Visits those that a statement reads: in its value, and as a solver's further inputs.
 void each_read(const UpdateLaw& law, const Statement& statement, const VisitVariable& visit);
-// Those that it assigns: its target, and what a solver finds beside it.
+// Visits those that it assigns: its target, and a solver's further outputs.
 void each_assigned(const UpdateLaw& law, const Statement& statement, const VisitVariable& visit);
 
 bool reads(const UpdateLaw& law, const std::vector<Statement>& program, VariableId variable);
 
-// What the programs refer to.
+// The constants that the programs refer to.
 std::set<CoefficientId> constants_read(const UpdateLaw& law);
 bool uses(const UpdateLaw& law, Operation operation);
 

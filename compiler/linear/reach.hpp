@@ -1,4 +1,4 @@
-// What the extended precision and the dense elimination of a part carry.
+// Limits of the extended precision, and of the dense elimination of a part.
 #pragma once
 
 #include "linear/modal_reduction.hpp"

@@ -1,4 +1,4 @@
-// A law whose names keep clear of words that the code around it has.
+// Keeps a law's names apart from words of the code around it.
 #pragma once
 
 #include <set>

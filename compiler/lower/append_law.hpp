@@ -1,5 +1,5 @@
-// The law of one port within the law of all: its tables behind those that are there, all names beginning with the
-// port's.
+// Appends the law of one port to the law of all: its tables follow those that are there, and all its names begin with
+// the port's.
 #pragma once
 
 #include <map>
@@ -22,9 +22,9 @@ struct AppendedLaw {
 // A law without tables and programs, of the same scalar and sampling.
 UpdateLaw empty_law_like(const UpdateLaw& law);
 
-// `known`: variables of the port that are others of the law already. The port has no tunables. What it remembers of its
-// brake for a sample that is refused is left out: that is told of all ports together. Which parts of the network a
-// statement is about is not told any more, since every port counts its elements by itself.
+// `known`: variables of the port's law that exist in the law of all already. The port has no tunables. The brake
+// command that it remembers for refused samples is left out, since the brake is commanded for all ports together.
+// Statements no longer tell which elements they belong to, since every port numbers its elements by itself.
 AppendedLaw append_law(LawWriter& writer, const std::string& name, const UpdateLaw& own,
                        const std::map<VariableId, VariableId>& known = {});
 

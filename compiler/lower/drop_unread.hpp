@@ -1,4 +1,4 @@
-// Not every shape of component needs all of its locals: takes out what nobody reads.
+// Removes locals that nobody reads: not every shape of component needs all of them.
 #pragma once
 
 #include "law/update_law.hpp"

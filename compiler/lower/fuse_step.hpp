@@ -1,5 +1,5 @@
-// What a whole step can leave out of output() and update(): copies from one to the other, and questions that are
-// answered already.
+// What a step in a single function can leave out of output() and update(): copies from one to the other, and checks
+// whose result is known already.
 #pragma once
 
 #include <map>
@@ -16,8 +16,8 @@ bool is_fusable(const UpdateLaw& law);
 // The states that only carry a number of output() to update(), each with what it is a copy of.
 std::map<VariableId, VariableId> carried_numbers(const UpdateLaw& law);
 
-// The force, behind those inputs that it does not show the state of: sums and products of what is not finite are not
-// finite.
+// The variables whose finiteness decides whether a sample is kept: the force, preceded by those inputs that may be
+// non-finite while the force is finite. (Sums and products of a non-finite number are not finite.)
 std::vector<VariableId> checked_numbers(const UpdateLaw& law);
 
 }  // namespace dashpot::compiler

@@ -78,7 +78,7 @@ class Shedding {
     for (Statement& statement : law_.energy) statement.value = loosened_energy(statement.value);
   }
 
-  // Behind a static curve the springs see w, which is known there.
+  // The place after a static curve's map: the springs see w, which is known from there on.
   std::vector<Statement>::iterator after_map() {
     if (law_.mapped == no_variable) return law_.output.begin();
     return std::next(std::find_if(law_.output.begin(), law_.output.end(),

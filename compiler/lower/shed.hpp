@@ -3,10 +3,10 @@
 // multiplied by one share in [0, 1], so that what is stored falls and the command is within. With
 //     m = within(wanted, ±limit, m₋ ± step),      s = m/wanted where wanted is beyond m, else 1,
 //     F_i ← s F_i,      r ← u − s (u − r)
-// where r is where the static spring is at rest. A spring that has been shed comes back to rest at 0 as soon as the
-// tool lets it: no further from the tool than it is, r ← the middle one of 0, r and u; behind a contact, surface and r
-// follow a tool that has left. Neither takes any energy. A command that ought to fall faster than the motor can is held
-// back and the states are not touched: the shortfall.
+// where r is the rest position of the static spring. After shedding, r returns to 0 as soon as the tool lets it, and is
+// never further out than the tool: r ← the median of 0, r and u; behind a contact, surface and r follow a tool that has
+// left. Neither takes any energy. A command that ought to fall faster than the motor can is held back and the states
+// are not touched: the shortfall.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -132,7 +132,7 @@ class SpellingOut {
 
   bool sheds() const { return tables_.sheds(); }
   bool has_contact() const { return head_.contact.is_there; }
-  // A surface that something elastic holds, and not slips alone, which stay where they are.
+  // Whether an elastic part holds the surface, which then comes back; slips alone stay where they are.
   bool comes_back() const { return has_contact() && (head_.static_spring != no_index || !tables_.has_slips()); }
   bool has_offsets() const {
     return std::any_of(springs_.begin(), springs_.end(), [](const SpringNames& s) { return s.offset != nothing; });
@@ -141,7 +141,8 @@ class SpellingOut {
     return head_.static_spring == no_index ? nullptr : &springs_[static_cast<std::size_t>(head_.static_spring)];
   }
 
-  // Between tool and ground, or in a mesh: else what is next to the spring makes room.
+  // Whether a spring keeps an offset: only between tool and ground, or in a mesh. Elsewhere what is next to it gives
+  // way.
   static bool keeps_offset(const BlockPart& part) {
     return part.kind == PartKind::mesh || (part.kind == PartKind::spring && !part.is_loose);
   }
@@ -318,7 +319,7 @@ class SpellingOut {
     assign(tank_, writer_.add(writer_.add(read(tank_), freed), writer_.where(next, zero(), now)), "");
   }
 
-  // Up to F as far as the tank pays.
+  // Raises the kept force towards F as far as the tank pays for it.
   void pay_for_the_rest(SpringNames& spring) {
     if (spring.carried == nothing) return;
     const ExpressionId next = spring.stiffness, f = read(spring.force), kept = read(spring.kept), tank = read(tank_);
@@ -351,7 +352,7 @@ class SpellingOut {
     assign(tank_, writer_.where(writer_.subtract(next, k), writer_.add(read(tank_), freed), read(tank_)), "");
   }
 
-  // And a softer one where the tank pays for all of it, else its elongation.
+  // A softer spring keeps its force if the tank pays for all of it, else its elongation.
   void soften(SpringNames& spring) {
     if (spring.carried == nothing) return;
     const ExpressionId k = before(spring), next = spring.stiffness, f = read(spring.force), tank = read(tank_);
@@ -609,7 +610,7 @@ class SpellingOut {
     }
   }
 
-  // No further from home than the spring: the middle one of 0, r and z.
+  // The offset is no further from 0 than the spring's elongation: the median of 0, r and z.
   void bring_shed_offset_home(SpringNames& spring) {
     const ExpressionId r = read(spring.offset), z = read(spring.elongation);
     const ExpressionId middle = middle_of_nothing(r, z, joined(spring.name, "offset"));
@@ -652,7 +653,7 @@ class SpellingOut {
     assign(spring->offset, where_it_does(writer_.subtract(z, kept), r), "what cannot be held is let go of");
   }
 
-  // By a part of the way, where the tank pays for it.
+  // Moves the offsets a part of the way back to 0, as far as the tank pays for it.
   void bring_offsets_home() {
     ExpressionId owed = nothing;
     for (SpringNames& spring : springs_) {

@@ -10,10 +10,10 @@
 
 namespace dashpot::compiler {
 
-// Before this a law cannot be run or printed. Of a law without calls that law.
+// Needed before a law can be run or printed. A law without calls is returned as it is.
 UpdateLaw spelled_out(UpdateLaw law, motion port_motion);
 
-// With what set() and reset() at 0 find for the values that are there to begin with, so that a new object needs
+// With the values that set() and reset() at 0 would find for the initial parameters, so that a new object needs
 // neither.
 UpdateLaw begun_at_rest(UpdateLaw law);
 

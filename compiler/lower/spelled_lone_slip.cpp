@@ -63,8 +63,8 @@ void SpelledLoneSlip::tune_held() {
   }
 }
 
-// From the port to the slip what stands in the way of its displacement while the port does not move, and back again how
-// that displacement is shared.
+// From the port to the slip: the stiffness that resists the slip's displacement while the port does not move; and back
+// again: how that displacement is shared.
 void SpelledLoneSlip::tune_given() {
   std::vector<ExpressionId> resisting(path_.size() + 1, nothing);  // nothing where nothing gives way
   for (std::size_t i = 0; i < path_.size(); ++i) {

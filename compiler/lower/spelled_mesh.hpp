@@ -1,8 +1,8 @@
 // Springs and dampers between inner nodes as statements, eliminated node after node from star to mesh:
 //     g_jk += g_ij g_ik / Σ g_i
 // Conductances are only added, multiplied and divided, never subtracted: nothing cancels, at any ratio of values, and a
-// node that nothing holds is seen exactly. One that is not there is `nothing`, and so is what it would be multiplied
-// with.
+// node that nothing holds is recognised exactly. A conductance that is not there is `nothing`, and so is its product
+// with anything.
 #pragma once
 
 #include <vector>

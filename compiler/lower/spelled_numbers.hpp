@@ -15,7 +15,7 @@ class SpelledNumbers {
   // The writer outlives this; what is in its law keeps its name.
   explicit SpelledNumbers(LawWriter& writer);
 
-  // Statements are from here on those of `program`, which stays where it is.
+  // Statements are added to `program` from here on; it must not move.
   void begin(std::vector<Statement>& program);
   // The same of a program that goes on where the one at hand ends: a name that is taken there is taken here.
   void go_on(std::vector<Statement>& program) { program_ = &program; }
@@ -27,8 +27,8 @@ class SpelledNumbers {
   VariableId local(const std::string& name, const std::string& unit, ExpressionId value, std::string purpose);
   // The value itself where that is a variable or a constant, else a local that has it.
   ExpressionId named(const std::string& name, const std::string& unit, ExpressionId value);
-  // In set(): a number that it leaves for the other programs; and the value itself where that is constant or such a
-  // number already.
+  // In set(): a variable that keeps the value for the other programs; or the value itself if it is constant or such a
+  // variable already.
   VariableId told(const std::string& name, const std::string& unit, const std::string& meaning, ExpressionId value);
   ExpressionId tuned(const std::string& name, const std::string& unit, const std::string& meaning, ExpressionId value);
   ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, double value,

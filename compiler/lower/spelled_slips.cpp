@@ -186,8 +186,8 @@ std::optional<double> SpelledSlips::constant_in(ExpressionId value) const {
   return writer_.law().coefficients[e.coefficient].values.front();
 }
 
-// Curves of slips through parts that give way without end would lose their digits. A block that is made stiffer adds
-// a little damping in its place.
+// The curves of slips would lose their digits next to parts without stiffness. A block whose g is raised acts as if it
+// had a little more damping.
 ExpressionId SpelledSlips::bounded_stiffness(std::size_t block) {
   const std::string& name = blocks_[block].name;
   const ExpressionId g = blocks_[block].stiffness;

@@ -27,7 +27,8 @@ class SpelledSlips {
   // surface's change.
   void write_step(VariableId force, ExpressionId change);
   void write_push(VariableId force, ExpressionId approach, VariableId surface_change);
-  // After it: b∞/T behind slips as far as the brake makes it, b on its way, and b where it is going, where asked for.
+  // After that: b∞/T behind slips as far as the brake makes it, the present b, and the b that it moves to, if asked
+  // for.
   struct Brake {
     VariableId now, damping, wanted;
   };

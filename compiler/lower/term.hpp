@@ -15,7 +15,7 @@ namespace dashpot::compiler {
 
 enum class TermKind { number, variable, add, multiply, divide, negate, square_root, sine, cosine, where, pick };
 
-// Numbers of which a law reads the one that it counts to.
+// A table from which a law reads the entry with a given number.
 struct TermTable {
   std::string name, unit, meaning;
   std::vector<double> values;

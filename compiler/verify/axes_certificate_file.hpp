@@ -20,7 +20,7 @@ struct AxesCertificateFile {
   bool is_proved = false;
   double needed_damping = 0;   // over W, as all of these; infinite where no damping is enough [N·s/m]
   double for_estimates = 0;    // of that, what follows estimates
-  double for_lag = 0;          // of that, what the amplifiers are behind with
+  double for_lag = 0;          // of that, what is due to the amplifiers' lag
   double missing_damping = 0;  // beyond what is there already
   bool certified = false;
   std::map<std::string, std::vector<double>> constants;  // as in the header

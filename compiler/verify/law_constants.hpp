@@ -18,8 +18,8 @@ struct LawConstant {
   std::size_t first;  // place of the header's first number among the constant's values
 };
 
-// By its name in the header: a constant's own, or, where a vector is written out as scalars, that of one of its places.
-// Empty where the law has none such, or not as many values.
+// Looks a constant up by its name in the header: its own, or that of one of its places where a vector is written as
+// scalars. Empty if the law has no such constant, or not as many values.
 std::optional<LawConstant> constant_called(const std::string& name, std::size_t values, const UpdateLaw& law);
 
 // Whether it is chosen, or of device or map, and no function of the network alone.
@@ -32,7 +32,7 @@ struct HeaderValue {
   double value;
 };
 
-// These report what is not the nearest number of the scalar's type; of a list also another number of values.
+// These report values that are not the nearest number of the scalar's type; for a list also a wrong number of values.
 void compare(const HeaderValue& value, const Reference& exact, ScalarType scalar, Diagnostics& diagnostics);
 void compare(const HeaderConstant& constant, const std::vector<Reference>& exact, ScalarType scalar,
              Diagnostics& diagnostics);

@@ -18,17 +18,17 @@ struct VerifiedPort {
   std::vector<HeaderConstant> constants = {};  // of the header, without the port's name
 };
 
-// The port with whose name the constant's begins, and whose law has one that is called like the rest; of several such,
-// or where none has, the longest name. Empty where none begins it.
+// The port whose name the constant's name begins with, and whose law has a constant called like the rest; of several
+// such, or if there is none, the longest name. Empty if the constant's name begins with no port's.
 std::optional<std::size_t> port_of(const std::string& constant, const std::vector<VerifiedPort>& ports);
 
-// Gives the port a constant of the header. What keeps apart what would be called alike is no part of the port's names.
+// Gives the port a constant of the header. What only keeps equal names apart is no part of the port's own names.
 void give(const HeaderConstant& constant, VerifiedPort& port);
 
 // Computes all constants of the port anew, and reports every disagreement.
 void recompute_port(const VerifiedPort& port, ScalarType scalar, Diagnostics& diagnostics);
 
-// Reports literals that no state of the law rests at.
+// Reports literals that are not the rest value of any state of the law.
 void look_at_literals(const HeaderConstant& literals, const UpdateLaw& law, Diagnostics& diagnostics);
 
 // Reports a constant that the law, written again, has not got.

@@ -12,7 +12,7 @@
 
 namespace dashpot::compiler {
 
-// Between what an error of the encoder is seen to do and what it does at most [N/m].
+// Bounds of K: what an error of the encoder is seen to do, and what it does at most [N/m].
 struct ReferenceGain {
   Reference least, most;
 };
@@ -20,8 +20,8 @@ struct ReferenceGain {
 // Of a linear law, by its constants, which have been found right. Empty where nothing is known of the estimator in it.
 std::optional<ReferenceGain> reference_gain(const MotorConstants& motor, const SampledLoop& loop);
 
-// Of a law with slips or a contact; `motor`: what compensates with an estimate, a choice. That no slip gives way within
-// a step is not looked at.
+// For a law with slips or a contact; `motor`: the gain of its compensation by an estimate, which is a choice. It is not
+// checked that no slip gives way within a step.
 std::optional<ReferenceGain> reference_gain(const ReferenceTree& tree, const ReferenceForm& linear,
                                             const Network& network, const SlipDecomposition& slips,
                                             const SlipMotor& motor, const LawFacts& facts, const SampledLoop& loop);
@@ -29,7 +29,7 @@ std::optional<ReferenceGain> reference_gain(const ReferenceTree& tree, const Ref
 // Σ|h_j| of the velocity estimate itself [1/s].
 std::optional<ReferenceGain> reference_pulse(const SampledLoop& loop);
 
-// Whether a certificate's K, or that there is none, is what the law's own says, which has to be between.
+// Whether a certificate's K, or its absence, agrees with that of the compiled law, which has to lie between the bounds.
 bool agrees(const std::optional<double>& stated, const std::optional<double>& compiled,
             const std::optional<ReferenceGain>& gain, ScalarType scalar);
 

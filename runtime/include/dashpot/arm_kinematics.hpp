@@ -8,7 +8,7 @@
 
 namespace dashpot {
 
-// A point of the arm: where, ∂/∂q, and what of its acceleration is there without any of the joints'.
+// A point of the arm: its position, ∂/∂q, and the part of its acceleration that does not come from the joints' own.
 struct arm_point {
   double position[2] = {};            // [m]
   double jacobian[2][arm_axes] = {};  // [m/rad] or [1]

@@ -8,8 +8,8 @@ namespace dashpot {
 
 // φ(x) = (1 − e^(−x))/x = −expm1(−x)/x for x ≥ 0, with φ(0) = 1 and φ(∞) = 0: how much of a displacement that grows
 // evenly over a sample is left in a Maxwell element at its end, x being the sample over the relaxation time. A negative
-// x counts as 0, and a NaN stays one. Relative error at most 3 units of roundoff (2⁻⁵³ in double, 2⁻²⁴ in
-// float) wherever the result is a normal number.
+// x counts as 0, and NaN stays NaN. Relative error at most 3 units of roundoff (2⁻⁵³ in double, 2⁻²⁴ in float) wherever
+// the result is a normal number.
 template <class Scalar>
 constexpr Scalar mean_decay(Scalar x) noexcept {
   if (x <= 0) return 1;

@@ -67,7 +67,7 @@ class led_device {
  private:
   static constexpr unsigned length = 65;  // samples of delay that a device file may state, and one
 
-  // Over the period before a sample.
+  // Advances device and sensor over the period before a sample.
   void go_on_to(double position) noexcept {
     if (index_ == 0) return;
     const double period = device_.loop.sample_period;
@@ -91,7 +91,7 @@ class led_device {
     if (!(device_.loop.write_latest > 0)) turn_to(demanded_);
   }
 
-  // What is so quick that it follows at once.
+  // Motor and brake follow a demand at once if they have neither lag nor slew limit.
   void turn_to(const actuation& demand) noexcept {
     if (!(device_.motor.amplifier_lag > 0) && !(device_.motor.slew > 0)) torque_ = demand.motor_torque;
     if (!(device_.brake.coil_lag > 0) && !(coil_.slew() > 0)) coil_.reset(root_of(demand));
@@ -105,7 +105,7 @@ class led_device {
     coil_.advance(root_of(demand), duration);
   }
 
-  // Of a difference between torque and demand, what is left.
+  // The share of a difference between torque and demand that is left after a duration.
   constexpr double decay_over(double duration) const noexcept {
     return device_.motor.amplifier_lag > 0 ? decay(duration / device_.motor.amplifier_lag) : 0.0;
   }
@@ -134,7 +134,7 @@ class led_device {
     return cut > value ? cut - 1 : cut;
   }
 
-  // The last edge on the way from the sample before, which is straight.
+  // Notes the time of the last encoder edge on the straight way from the previous sample.
   void note_edge(double position) noexcept {
     if (!(device_.encoder.step > 0)) return;
     const double from = whole_steps(last_position_), to = whole_steps(position);

@@ -97,8 +97,8 @@ constexpr bool check_model() {
   return true;
 }
 
-// Of all forces in the network, what the last output() kept so that the motor can follow; 1 of a model that never
-// sheds.
+// The share of all forces in the network that the last output() kept so that the motor can follow; 1 for a model that
+// never sheds.
 template <class Model>
 double kept_share_of([[maybe_unused]] const Model& model) noexcept {
   if constexpr (is_detected<model_claim::kept_share, Model>) return static_cast<double>(model.kept_share());

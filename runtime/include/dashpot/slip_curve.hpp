@@ -1,8 +1,8 @@
 // The curve of a part that gives way, p against δ: a polyline that never falls. It is read by elongation where parts
 // stand in parallel and forces add, by force where they stand in series and elongations do.
 //
-// Beside its kinks a curve knows its force at δ = 0. There and near by the next samples are: kinks may lie so far off
-// that a reading between two of them alone would be off by more than all that happens here.
+// Besides its kinks a curve stores its force at δ = 0, near which the next samples lie: kinks may be so far away that
+// an interpolation between two of them alone would be off by more than all that happens there.
 #pragma once
 
 namespace dashpot {
@@ -31,7 +31,7 @@ struct slip_range {
   bool is_kink;
 };
 
-// The two ways to read a curve: what is shared by parts, and what adds up over them.
+// The two ways to read a curve: `at` is the quantity that parts share, `value` the one that adds up over them.
 template <class Scalar>
 struct by_elongation {
   using Corner = slip_corner<Scalar>;
@@ -106,7 +106,7 @@ constexpr slip_range<Scalar> slip_curve_at(const slip_curve<Scalar>& curve, Scal
   return reader.read(at);
 }
 
-// Behind `count` corners in `to`. Rounding must not bend a curve back.
+// Appends a corner to the `count` corners in `to`. Rounding must not make a curve fall.
 template <class Way, class Scalar>
 constexpr int append_corner(slip_corner<Scalar>* to, int count, Scalar at, Scalar value, bool is_kink) noexcept {
   const bool falls = count > 0 && value < Way::value(to[count - 1]);
@@ -143,7 +143,7 @@ constexpr int insert_corner(slip_corner<Scalar>* corners, int count, const slip_
   return count + 1;
 }
 
-// Leaves the kinks and the point at δ = 0; on a flat end nothing is gained by it. Returns how many there are.
+// Keeps the kinks, and adds the point at δ = 0 unless that is a kink or lies on a flat end. Returns how many there are.
 template <class Scalar>
 constexpr int mark_rest(const slip_curve<Scalar>& curve, slip_corner<Scalar>* corners) noexcept {
   const slip_range<Scalar> rest = slip_curve_at<by_elongation<Scalar>>(curve, Scalar(0));

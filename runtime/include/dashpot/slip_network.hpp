@@ -146,7 +146,7 @@ class slip_network {
   }  // the last of a group that neither tool nor ground holds
   constexpr Scalar& link(int i, int j) noexcept { return between_[i * nodes_ + j]; }
 
-  // Ends joined by slips that hold move as one. A slip between ends of one group holds, whatever was thought of it.
+  // Ends joined by slips that hold move as one. A slip between ends of one group holds, whatever the pattern says.
   constexpr void join() noexcept {
     for (int i = 0; i < nodes_ + 2; ++i) group_[i] = i;
     for (int k = 0; k < slips_; ++k)
@@ -240,8 +240,8 @@ class slip_network {
     for (int i = 0; i < nodes_; ++i) moved_[i] = target(i);
   }
 
-  // After a guess: gives every slip the side to which it went; true where that is not what was thought. A surface that
-  // the tool would be behind is taken along first.
+  // After a guessed pattern: sets every slip to the side to which it moved; true if that differs from the guess. A
+  // surface that the tool would have passed is moved along with it first.
   constexpr bool turn_back() noexcept {
     for (int k = 0; k < slips_; ++k)
       if (is_contact(k) && stretch(k) > Scalar(0) && links_[k].b < nodes_) moved_[links_[k].b] = at(links_[k].a);

@@ -10,8 +10,8 @@ struct tunable_range {
   Scalar max;
 };
 
-// `value` becomes what is wanted of it, within its range; a NaN leaves it as it is. Returns 1 where
-// that is not what was wanted, else 0.
+// `value` becomes what is wanted, clamped to its range; a NaN leaves it as it is. Returns 1 if `value` is then not what
+// was wanted, else 0.
 template <class Scalar>
 constexpr unsigned take_value(const tunable_range<Scalar>& range, Scalar wanted, Scalar& value) noexcept {
   if (wanted == wanted) value = wanted < range.min ? range.min : wanted > range.max ? range.max : wanted;

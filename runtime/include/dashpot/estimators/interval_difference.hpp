@@ -24,9 +24,9 @@ class interval_difference {
     started_ = false;
   }
 
-  // Finite position [m] or [rad], device clock at the sample [ns] → velocity [m/s] or [rad/s]. Where no time has
-  // passed since the sample before the estimate is 0, and the next one is of the way from that sample; a clock that
-  // runs back is a clock that begins anew.
+  // Finite position [m] or [rad], device clock at the sample [ns] → velocity [m/s] or [rad/s]. If no time has passed
+  // since the previous sample the estimate is 0, and the next estimate covers the way from that sample; a clock that
+  // runs backwards is taken to have started anew.
   Scalar update(Scalar position, std::uint64_t timestamp_ns) noexcept {
     const std::int64_t passed_ns = static_cast<std::int64_t>(timestamp_ns - timestamp_ns_);  // across a wrap as well
     if (started_ && passed_ns == 0) return 0;

@@ -17,7 +17,7 @@ struct device_identity {
   const char* digest = "";
 };
 
-// The other half of what a model is held against.
+// The loop's side of the comparison with a model's facts.
 struct loop_facts {
   device_identity identity;
   device_description device;

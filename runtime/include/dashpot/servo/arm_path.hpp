@@ -1,7 +1,7 @@
 // As command_path.hpp for two axes: what lies between reading a sample of all joints and writing a command for all
 // motors and brakes. Every joint has a monitor, an estimator and a motor of its own, every brake a coil; the energy is
-// summed over them. A device of joints without a workspace has none that is watched; otherwise a tip that leaves it
-// ends in the safe command, for beyond it nothing is certified.
+// summed over them. If the device states a workspace, a tip that leaves it leads to the safe command, since nothing is
+// certified beyond it.
 #pragma once
 
 #include <algorithm>
@@ -149,7 +149,7 @@ class arm_path {
     actuator<double> motor;
     hold_observer<double> energy;
     actuator_output<double> output;
-    bool falls_short = false;  // of what it was asked for, by the newest report
+    bool falls_short = false;  // by the newest report it made less than it was asked for
   };
   struct brake {
     brake(const arm_description& arm, unsigned number, const arm_command_options& options) noexcept

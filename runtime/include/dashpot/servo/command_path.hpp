@@ -156,7 +156,8 @@ class command_path {
     return {};
   }
 
-  // What the device has made of a command: less than was asked is told and counted, and the energy is reckoned with it.
+  // Takes note of what the device made of a command: if it is less than was asked, that is reported and counted, and
+  // the energy is computed with it.
   void heed(const device_report& report) noexcept {
     motor_falls_short_ = brake_falls_short_ = false;
     if (!report.told || report.commands_ago >= remembered || report.commands_ago >= commands_) return;

@@ -1,6 +1,6 @@
 // The device concept of device.hpp, checked in words, and its optional parts:
-//     device_status reset() noexcept;         // asks the device to leave a safe state of its own, with the loop's
-//     reset const char* cause() const noexcept;     // why it answers `fault`: goes into the log
+//     device_status reset() noexcept;      // asks the device, with the loop's reset, to leave a safe state of its own
+//     const char* cause() const noexcept;  // why it answers `fault`: goes into the log
 #pragma once
 
 #include <type_traits>

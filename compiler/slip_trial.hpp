@@ -77,7 +77,7 @@ struct TrialError {
 };
 TrialError trial_error(const SlipTrial& trial, const std::vector<FeltForce>& felt);
 
-// The worst error of laws between two others, as far as what is felt is affine in the share of the second.
+// The worst error of the laws between two given ones, for a felt force that is affine in the share of the second.
 class ErrorBetween {
  public:
   ErrorBetween(const SlipTrial& trial, const std::vector<FeltForce>& first, const std::vector<FeltForce>& second);

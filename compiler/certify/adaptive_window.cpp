@@ -134,7 +134,8 @@ std::optional<StorageProof> adaptive_storage_proof(const MotorConstants& motor, 
   const Rational gain = abs(Rational(motor.velocity_gain)), T = loop.sample_period;
   StorageProof proof = *beside;
   proof.damping = ceiling(Rational(beside->damping) + Rational(known->factor) * gain * (T + Rational(loop.jitter)) / T);
-  // Both remember q0 … q_delay; what is remembered for the estimate alone stands before the modes.
+  // Both remember q0 … q_delay. Behind these come the variables that are remembered for the estimate alone, then the
+  // modes.
   const std::size_t shared = loop.delay_samples + 1, more = known->storage.size() - shared;
   const auto place = [&](std::size_t i) { return i < shared ? i : i + more; };
   proof.storage = known->storage;

@@ -98,7 +98,7 @@ class CertifiedPart {
     for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) add(span.at(share));
   }
 
-  // Until chords and their prolongations agree: x to a small share of itself, or of what changes the error at all.
+  // Until chords and their prolongations agree: to a small share of x, or of the smallest x that changes the error.
   void refine(double allowed) {
     while (places_.size() < most_places) {
       std::size_t worst = 0;

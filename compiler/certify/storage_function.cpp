@@ -351,7 +351,7 @@ std::vector<double> runtime_coefficients(const velocity_description& v, double T
   }
 }
 
-// The largest S(θ) that is found, and where: `attained` at `angle`, and what lies near the angles of interest.
+// The largest S(θ) and its angle, of `attained` at `angle` and of what is found near the angles of interest.
 template <class Scalar>
 std::pair<double, double> largest_need(const Recursion<Scalar>& r, const OneHold<Scalar>& hold,
                                        const checker::Device& device, double attained, double angle) {

@@ -98,7 +98,7 @@ struct SlipDecomposition {
   unsigned memory = 0;                   // N + n: samples that an estimate reaches back from the hold that it acts in
   double ramp = 1;           // ρ: the largest step of a ramp in one sample, as a share of its whole length [1]
   double coil_share = 1;     // κ: the least share of the difference in √b that the coil covers in a sample [1]
-  double assured_share = 0;  // of a damping that no slip changes, what an estimate may make up for; 0 for none [1]
+  double assured_share = 0;  // share of a damping that no slip changes, up to which an estimate may replace it [1]
   double make_up = 0;        // what the motor may add or take of a brake on its way, β at most [N·s/m]
 
   // Components, then networks.

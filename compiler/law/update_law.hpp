@@ -135,8 +135,8 @@ enum class CallResult : std::uint8_t { value, stiffness, feedthrough, damping, f
 
 struct Call {
   Callee callee;
-  std::vector<ExpressionId> given = {};   // without operations: read once more wherever they are written
-  CallResult result = CallResult::value;  // of the target
+  std::vector<ExpressionId> given = {};                       // variables or constants, which may be read several times
+  CallResult result = CallResult::value;                      // of the target
   std::vector<std::pair<CallResult, VariableId>> found = {};  // assigned beside it
 };
 

@@ -315,7 +315,7 @@ class slip_network {
     }
   }
 
-  // A stiff tie answers the rounding of either end too.
+  // The pull of a stiff tie contains the rounding errors of both ends' displacements.
   constexpr void add_tie(int i, Scalar stiffness, Scalar other) noexcept {
     add_pull(i, stiffness * (moved_[i] - other));
     pull_weight_[i] += size(stiffness) * (size(moved_[i]) + size(other)) * Scalar(0.125);

@@ -71,8 +71,8 @@ std::string with_elements(const std::string& elements) {
 }
 
 // Sound headers would be refused: yield forces summed in another order, a brake that has all the dampers of a cut, a
-// relaxation that is over within a sample beside a slow one, a motor behind a lag that has nothing to make,
-// or whose bound is a sum sample by sample.
+// relaxation that is over within a sample beside a slow one, a motor behind a lag that has nothing to make, or whose
+// bound is a sum sample by sample.
 TEST(VerifiedHeaders, OfLawsThatWereRefused) {
   const std::string networks[] = {
       R"("network": {"series": [{"spring": 100}, {"parallel": [{"slip": 0.1}, {"slip": 0.2}, {"slip": 0.3}]}]})",
@@ -106,6 +106,22 @@ TEST(VerifiedHeaders, OfLawsThatWereRefused) {
       R"("elements": [{"spring": 1746.5, "nodes": ["tool", "ground"]}, {"spring": 0.000444, "nodes": ["ground", "n"]},
      {"damper": 3236, "nodes": ["n", "tool"]}])";
   EXPECT_EQ(faults(with_elements(slow), lags, by_sample, written), "");
+}
+
+// Fails if the part of a regime's dampers that a weak brake can take is refused, in a tree or in none.
+TEST(VerifiedHeaders, OfBrakesThatReachOnlyAPartOfTheDampers) {
+  const std::string weak_brake = text_of("runtime/devices/pantograph_brake_2009.json");
+  Choices choices;
+  choices.decomposition = "velocity-free";
+  const std::string tree =
+      R"("network": {"series": [{"damper": 8}, {"parallel": [{"slip": 1}, {"series": [{"spring": 300}, {"slip": 0.5}]}]}]})";
+  const std::string graph =
+      R"("elements": [{"damper": 40, "nodes": ["tool", "p"]}, {"damper": 30, "nodes": ["tool", "q"]},
+         {"spring": 20, "nodes": ["p", "q"]}, {"slip": 0.1, "nodes": ["p", "ground"]}, {"slip": 1, "nodes": ["q", "ground"]}])";
+  int written = 0;
+  EXPECT_EQ(faults(with_elements(tree), weak_brake, choices, written), "");
+  EXPECT_EQ(faults(with_elements(graph), weak_brake, choices, written), "");
+  EXPECT_EQ(written, 2);
 }
 
 // The same of networks that nobody chose.

@@ -62,10 +62,14 @@ void recompute_port(const VerifiedPort& port, ScalarType scalar, Diagnostics& di
 }
 
 void look_at_literals(const HeaderConstant& literals, const UpdateLaw& law, Diagnostics& diagnostics) {
-  for (std::size_t i = 0; i < literals.values.size(); ++i)
-    if (std::none_of(law.variables.begin(), law.variables.end(),
-                     [&](const Variable& variable) { return variable.rest_value == literals.values[i]; }))
-      diagnostics.report<DiagnosticCode::constant_of_nothing>({}, literals.name, i + 1, literals.values[i]);
+  for (std::size_t i = 0; i < literals.values.size(); ++i) {
+    const double value = literals.values[i];
+    const bool is_rest = std::any_of(law.variables.begin(), law.variables.end(),
+                                     [&](const Variable& variable) { return variable.rest_value == value; });
+    const bool is_tie = std::any_of(law.networks.begin(), law.networks.end(),
+                                    [&](const SlipNetwork& network) { return network.through == value; });
+    if (!is_rest && !is_tie) diagnostics.report<DiagnosticCode::constant_of_nothing>({}, literals.name, i + 1, value);
+  }
 }
 
 void compare_with_written(const HeaderConstant& constant, const UpdateLaw& law, Diagnostics& diagnostics) {

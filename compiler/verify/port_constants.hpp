@@ -28,7 +28,8 @@ void give(const HeaderConstant& constant, VerifiedPort& port);
 // Computes all constants of the port anew, and reports every disagreement.
 void recompute_port(const VerifiedPort& port, ScalarType scalar, Diagnostics& diagnostics);
 
-// Reports literals that are not the rest value of any state of the law.
+// Reports literals at which no state of the law rests, and that join tool and ground in none of its parts that are no
+// tree.
 void look_at_literals(const HeaderConstant& literals, const UpdateLaw& law, Diagnostics& diagnostics);
 
 // Reports a constant that the law, written again, has not got.

@@ -5,6 +5,7 @@
 
 #include "certify/slip_motor.hpp"
 #include "verify/law_constants.hpp"
+#include "verify/port_constants.hpp"
 #include "verify/realised_network.hpp"
 #include "verify/recompiled.hpp"
 #include "verify/reference_gain.hpp"
@@ -24,13 +25,14 @@ SlipVerification::SlipVerification(const CertificateFile& certificate, const Hea
 
 void SlipVerification::recompute_constants() {
   for (const HeaderConstant& constant : header_.all) look_at(constant);
+  for (const SlipNetwork& table : compiled_.law.networks) look_at_through(table);
   if (!equations_.are_shares_within_regimes())
     diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "brake's shares", "network",
                                                                "feedthrough damping of a regime");
 }
 
 void SlipVerification::look_at(const HeaderConstant& constant) {
-  if (constant.name == literals_in_code) return look_at_literals(constant);
+  if (constant.name == literals_in_code) return look_at_literals(constant, compiled_.law, diagnostics_);
   if (const auto table = table_called(constant.name)) return compare(constant, *table, header_.scalar, diagnostics_);
   const auto known = constant_called(constant.name, constant.values.size(), compiled_.law);
   if (!known) return compare_with_facts(constant, compiled_, facts_, diagnostics_);
@@ -76,21 +78,10 @@ std::optional<SlipEquations::Values> SlipVerification::table_called(const std::s
   return std::nullopt;
 }
 
-// What joins tool and ground in a part that is no tree; and the states at rest, which the brake's choice says.
-void SlipVerification::look_at_literals(const HeaderConstant& literals) {
-  const auto& variables = compiled_.law.variables;
-  for (std::size_t i = 0; i < literals.values.size(); ++i) {
-    const double value = literals.values[i];
-    const auto rests_there = [&](const Variable& variable) { return variable.rest_value == value; };
-    const auto joins = [&](const SlipNetwork& table) {
-      const std::optional<Reference> through = equations_.through(table);
-      return through && is_correctly_rounded(value, *through, header_.scalar);
-    };
-    const auto& networks = compiled_.law.networks;
-    if (std::none_of(variables.begin(), variables.end(), rests_there) &&
-        std::none_of(networks.begin(), networks.end(), joins))
-      diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, literals.name, i + 1, value);
-  }
+// What joins tool and ground has no name in the header: it is an argument of the step.
+void SlipVerification::look_at_through(const SlipNetwork& table) {
+  if (const std::optional<Reference> exact = equations_.through(table))
+    compare({table.name, 0, table.through}, *exact, header_.scalar, diagnostics_);
 }
 
 // The cut once more, of which the certificate may ask no less, and, but for its margin, no more.

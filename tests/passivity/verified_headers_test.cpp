@@ -72,7 +72,7 @@ std::string with_elements(const std::string& elements) {
 
 // Sound headers would be refused: yield forces summed in another order, a brake that has all the dampers of a cut, a
 // relaxation that is over within a sample beside a slow one, a motor behind a lag that has nothing to make, or whose
-// bound is a sum sample by sample.
+// bound is a sum sample by sample, slips that are no tree in one of several ports.
 TEST(VerifiedHeaders, OfLawsThatWereRefused) {
   const std::string networks[] = {
       R"("network": {"series": [{"spring": 100}, {"parallel": [{"slip": 0.1}, {"slip": 0.2}, {"slip": 0.3}]}]})",
@@ -84,7 +84,11 @@ TEST(VerifiedHeaders, OfLawsThatWereRefused) {
       R"("elements": [{"damper": 1, "nodes": ["n0", "ground"]}, {"damper": 2, "nodes": ["tool", "n0"]},
          {"slip": 1, "nodes": ["n1", "tool"]}, {"spring": 1, "nodes": ["ground", "n1"]}, {"spring": 1, "nodes": ["n1", "n0"]}])",
       R"("network": {"series": [{"parallel": [{"damper": 1}, {"spring": 1}]},
-         {"series": [{"slip": 1}, {"spring": 1287}, {"damper": 0.02}]}]})"};
+         {"series": [{"slip": 1}, {"spring": 1287}, {"damper": 0.02}]}]})",
+      R"("ports": [{"name": "left", "elements": [{"spring": 115, "nodes": ["tool", "ground"]}]},
+         {"name": "right", "elements": [{"damper": 100, "nodes": ["n3", "n1"]}, {"spring": 0.1, "nodes": ["n3", "ground"]},
+         {"damper": 0.1, "nodes": ["ground", "n1"]}, {"spring": 24, "nodes": ["tool", "n1"]},
+         {"slip": 2, "nodes": ["tool", "n3"]}]}])"};
   int written = 0;
   for (const std::string& network : networks)
     for (const char* decomposition : {"most-dissipative", "velocity-free", "virtual"})

@@ -216,7 +216,7 @@ std::optional<Reference> feedthrough_in(const ReferencePart& part, std::size_t p
   for (const ReferencePart& child : part.children) {
     const std::optional<Reference> b = feedthrough_in(child, pattern);
     const std::size_t slips = slip_count(child);
-    if (slips < 64) pattern >>= slips;
+    if (slips < 64 && pattern != every_slip_slides) pattern >>= slips;
     is_rigid = is_rigid && !b;
     is_held = is_held || !b;
     is_open = is_open || (b && *b == 0);

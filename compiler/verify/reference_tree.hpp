@@ -47,6 +47,7 @@ ReferencePart without_dampers_beside_slips(ReferencePart part);
 
 // b∞ where slip i, in the order of the parts, slides if bit i of the pattern is set and holds else; empty where that is
 // rigid.
+inline constexpr std::size_t every_slip_slides = ~std::size_t{0};  // of however many
 std::optional<Reference> feedthrough_in(const ReferencePart& part, std::size_t pattern);
 
 }  // namespace dashpot::compiler

@@ -271,16 +271,18 @@ std::optional<Reference> SlipEquations::feedthrough_of(const OfRegime& of, std::
   for (const auto& [elements, form] : networks_) {
     if (!std::includes(elements.begin(), elements.end(), first.begin(), first.end())) continue;
     std::vector<bool> slides;
-    for (std::size_t i = 0; i < of.slips.size(); ++i) slides.push_back((regime >> i & 1u) != 0);
+    for (std::size_t i = 0; i < of.slips.size(); ++i)
+      slides.push_back(regime == every_slip_slides || (regime >> i & 1u) != 0);
     return reference_form(network_in_regime(network_, elements, of.slips, slides)).feedthrough_damping;
   }
   for (const ReferencePart& component : tree_.components) {
     std::vector<ElementList> slips;
     collect_slips(component, slips);
-    std::size_t pattern = 0, found = 0;
+    const bool all_slide = regime == every_slip_slides;
+    std::size_t pattern = all_slide ? regime : 0, found = 0;
     for (std::size_t i = 0; i < slips.size(); ++i)
       for (std::size_t j = 0; j < of.slips.size(); ++j)
-        if (slips[i] == sorted(of.slips[j])) pattern |= (regime >> j & 1u) << i, ++found;
+        if (slips[i] == sorted(of.slips[j])) pattern |= all_slide ? 0 : (regime >> j & 1u) << i, ++found;
     if (found == slips.size()) return feedthrough_in(component, pattern);
   }
   return std::nullopt;
@@ -294,13 +296,13 @@ std::optional<Reference> SlipEquations::regime_feedthrough(const OfRegime& of) c
       std::find_if(splits.begin(), splits.end(), [&](const ComponentSplit* s) { return s->regimes.slips == of.slips; });
   if (split == splits.end()) return std::nullopt;
   const std::vector<Regime>& listed = (*split)->regimes.regimes;
-  const std::size_t all_slide = of.slips.size() < 64 ? (std::size_t{1} << of.slips.size()) - 1 : ~std::size_t{0};
-  const std::size_t first = of.regime ? *of.regime : listed.empty() ? all_slide : 0;
-  const std::size_t last = of.regime || listed.empty() ? first : listed.size() - 1;
+  const std::size_t first = of.regime ? *of.regime : listed.empty() ? every_slip_slides : 0;
+  const std::size_t count = of.regime || listed.empty() ? 1 : listed.size();
   const Real& share = (*split)->shares.at(of.regime.value_or(0)).feedthrough;
   std::optional<Reference> most;
   bool is_a_part = false;
-  for (std::size_t regime = first; regime <= last; ++regime) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t regime = first + i;
     const std::optional<Reference> here = feedthrough_of(of, regime);
     if (here) most = most ? std::min(*most, *here) : *here;
     is_a_part = is_a_part || (regime < listed.size() && share < listed[regime].feedthrough());

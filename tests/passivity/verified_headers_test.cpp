@@ -128,6 +128,19 @@ TEST(VerifiedHeaders, OfBrakesThatReachOnlyAPartOfTheDampers) {
   EXPECT_EQ(written, 2);
 }
 
+// Fails if verify does not end, or refuses, where a component has more slips than a word has bits.
+TEST(VerifiedHeaders, OfMoreSlipsThanBits) {
+  std::string slips;
+  for (int i = 1; i <= 70; ++i) slips += R"({"parallel": [{"slip": )" + std::to_string(i) + R"(}, {"damper": 2}]}, )";
+  Choices choices;
+  choices.decomposition = "velocity-free";
+  int written = 0;
+  EXPECT_EQ(faults(with_elements(R"("network": {"series": [)" + slips + R"({"damper": 3}]})"), std::nullopt, choices,
+                   written),
+            "");
+  EXPECT_EQ(written, 1);
+}
+
 // The same of networks that nobody chose.
 TEST(VerifiedHeaders, OfRandomNetworksWithSlips) {
   const std::uint64_t cases = repetitions(16, 2700);

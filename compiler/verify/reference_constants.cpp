@@ -38,6 +38,11 @@ ModeFactors mode_factors(const ReferenceMode& mode, const LawFacts& facts) {
   return {decay, loss, mode.stiffness * loss / x};
 }
 
+Reference energy_weight(const ReferenceMode& mode, const ModeFactors& factors, ScalarType scalar) {
+  const double vanishing = scalar == ScalarType::float64 ? 1e-100 : 1e-12;
+  return factors.decay < vanishing ? Reference(0) : Reference(1 / (2 * mode.stiffness * factors.decay * factors.decay));
+}
+
 Reference companion(const ReferenceForm& form, const LawFacts& facts) {
   Reference g = form.static_stiffness + form.feedthrough_damping * Reference(facts.rate);
   for (const ReferenceMode& mode : form.modes) g += mode_factors(mode, facts).gain;
@@ -46,7 +51,6 @@ Reference companion(const ReferenceForm& form, const LawFacts& facts) {
 
 std::map<std::string, std::vector<Reference>> reference_constants(const ReferenceForm& form, const LawFacts& facts) {
   const Reference period = 1 / Reference(facts.rate);
-  const double vanishing = facts.scalar == ScalarType::float64 ? 1e-100 : 1e-12;
   std::map<std::string, std::vector<Reference>> all;
   Reference step = 0, from_velocity = 0;
   for (const ReferenceMode& mode : form.modes) {
@@ -58,8 +62,7 @@ std::map<std::string, std::vector<Reference>> reference_constants(const Referenc
     all["loss"].push_back(f.loss);
     all["gain"].push_back(f.decay * f.gain * share);
     all["velocity_drive"].push_back(f.decay * f.gain * (1 - share) * period);
-    all["energy_weight"].push_back(f.decay < vanishing ? Reference(0)
-                                                       : Reference(1 / (2 * mode.stiffness * f.decay * f.decay)));
+    all["energy_weight"].push_back(energy_weight(mode, f, facts.scalar));
   }
   const double brake = nearest(facts.damping, facts.scalar);
   const bool all_in_brake = nearest(form.feedthrough_damping, facts.scalar) == brake;

@@ -25,6 +25,9 @@ struct ModeFactors {
 };
 ModeFactors mode_factors(const ReferenceMode& mode, const LawFacts& facts);
 
+// 1/(2 k a²); a mode that vanishes within a sample stores nothing from one to the next.
+Reference energy_weight(const ReferenceMode& mode, const ModeFactors& factors, ScalarType scalar);
+
 // How stiff it is to a step within one sample: k0 + b∞/T + Σ c [N/m].
 Reference companion(const ReferenceForm& form, const LawFacts& facts);
 

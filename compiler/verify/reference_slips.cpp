@@ -4,9 +4,7 @@
 
 #include "decompose/regimes.hpp"
 #include "network/law.hpp"
-#include "verify/header_constants.hpp"
 #include "verify/reference_network.hpp"
-#include "verify/slip_rows.hpp"
 
 namespace dashpot::compiler {
 namespace {

@@ -9,13 +9,6 @@ namespace {
 using Kind = ReferencePart::Kind;
 using Values = SlipEquations::Values;
 
-ElementList effective(const Network& network) {
-  ElementList all;
-  for (std::size_t i = 0; i < network.elements.size(); ++i)
-    if (network.elements[i].has_effect) all.push_back(i);
-  return all;
-}
-
 bool is_empty(const ReferenceForm& f) {
   return f.static_stiffness == 0 && f.feedthrough_damping == 0 && f.modes.empty();
 }
@@ -40,23 +33,10 @@ bool is_pushed(const SlipNetwork& table) {
   return std::find(table.end_nodes.begin(), table.end_nodes.end(), tool) != table.end_nodes.end();
 }
 
-const Reference& at(const ReferenceRow& row, const OfRow& of, const std::vector<ElementList>& blocks) {
-  if (of.factor == RowFor::change) return row.change;
-  if (of.factor == RowFor::excess) return row.excess;
-  const auto held = std::find(blocks.begin(), blocks.end(), sorted(of.held));
-  return held == blocks.end() ? row.excess : row.held[std::size_t(held - blocks.begin())];
-}
-
 // Depth first, as feedthrough_in() counts them.
 void collect_slips(const ReferencePart& part, std::vector<ElementList>& slips) {
   if (part.kind == Kind::slip) slips.push_back(sorted(elements_of(part)));
   for (const ReferencePart& child : part.children) collect_slips(child, slips);
-}
-
-// A mode that vanishes within a sample stores nothing from one to the next.
-Reference energy_weight(const ReferenceMode& mode, const ModeFactors& f, ScalarType scalar) {
-  const double vanishing = scalar == ScalarType::float64 ? 1e-100 : 1e-12;
-  return f.decay < vanishing ? Reference(0) : Reference(1 / (2 * mode.stiffness * f.decay * f.decay));
 }
 
 }  // namespace
@@ -88,7 +68,7 @@ ElementList SlipEquations::index(const ReferencePart& part) {
   const bool is_linear = !behind_surface_.children.empty() && &part == &behind_surface_.children.front() &&
                          part.kind == Kind::block && !is_empty(tree_.linear);
   ElementList all;
-  if (is_linear) all = effective(tree_.linear_network);
+  if (is_linear) all = effective_elements(tree_.linear_network);
   else if (part.children.empty()) all = elements_of(part);
   for (const ReferencePart& child : part.children) {
     const ElementList of_child = index(child);
@@ -106,11 +86,9 @@ void SlipEquations::add_rows(const ReferencePart& component, const std::vector<B
     known.blocks.push_back(sorted(elements_of(*block)));
     stiffness_of_blocks.push_back(companion(block->form, facts_));
   }
-  for (const auto& [elements, part] : parts_)
-    if (part->kind == Kind::slip) {
-      const ElementList all = sorted(elements_of(component));
-      if (std::includes(all.begin(), all.end(), elements.begin(), elements.end())) known.slip = elements;
-    }
+  std::vector<ElementList> slips;
+  collect_slips(component, slips);
+  known.slip = slips.front();
   known.rows = slip_rows(component, stiffness_of_blocks);
   rows_.push_back(std::move(known));
 }
@@ -241,21 +219,21 @@ std::optional<Reference> SlipEquations::row(const OfRow& of) const {
   const auto known =
       std::find_if(rows_.begin(), rows_.end(), [&](const KnownRows& k) { return k.slip == sorted(of.slip); });
   if (known == rows_.end()) return std::nullopt;
-  const auto block =
-      std::size_t(std::find(known->blocks.begin(), known->blocks.end(), sorted(of.block)) - known->blocks.begin());
+  const auto place = [&](const ElementList& block) {
+    return std::size_t(std::find(known->blocks.begin(), known->blocks.end(), sorted(block)) - known->blocks.begin());
+  };
+  const std::size_t block = place(of.block), held = place(of.held), blocks = known->blocks.size();
   const bool is_of_block = of.quantity == RowOf::elongation || of.quantity == RowOf::spring;
-  if (is_of_block && block == known->blocks.size()) return std::nullopt;
   const bool is_held = of.factor == RowFor::held;
-  if (is_held && std::find(known->blocks.begin(), known->blocks.end(), sorted(of.held)) == known->blocks.end())
-    return std::nullopt;
-  const auto from = [&](const ReferenceRow& row) { return at(row, of, known->blocks); };
-  Reference value = of.quantity == RowOf::trial ? from(known->rows.trial)
-                    : is_of_block               ? from(known->rows.elongation[block])
-                                                : from(known->rows.force);
+  if ((is_of_block && block == blocks) || (is_held && held == blocks)) return std::nullopt;
+  const ReferenceRow& row = of.quantity == RowOf::trial ? known->rows.trial
+                            : is_of_block               ? known->rows.elongation[block]
+                                                        : known->rows.force;
+  Reference value = is_held ? row.held[held] : of.factor == RowFor::change ? row.change : row.excess;
   if (of.quantity == RowOf::spring) {
     const ReferenceForm& form = known->parts[block]->form;
     value *= form.static_stiffness;
-    if (is_held && sorted(of.held) == known->blocks[block] && form.modes.empty()) value += 1;
+    if (is_held && held == block && form.modes.empty()) value += 1;
   }
   const bool is_force = of.quantity == RowOf::force || of.quantity == RowOf::stuck_force;
   if (is_force && of.factor == RowFor::change && known->shares != nullptr) {

@@ -111,7 +111,7 @@ class Hal(unittest.TestCase):
         return found
 
     def test_faults(self):
-        """Fails if a thread of another period, or NaN or infinity, moves the motor, or a fault goes while enable holds."""
+        """Fails if a thread of another period, NaN or infinity moves the motor, or a fault goes while enable holds."""
         name = LAWS[0][2]
         pins = name.replace("_", "-") + ".0"
         watched = ("fault", "fault-code", "force", "damping")

@@ -86,8 +86,8 @@ TEST(VerifiedHeaders, OfLawsThatWereRefused) {
       R"("network": {"series": [{"parallel": [{"damper": 1}, {"spring": 1}]},
          {"series": [{"slip": 1}, {"spring": 1287}, {"damper": 0.02}]}]})",
       R"("ports": [{"name": "left", "elements": [{"spring": 115, "nodes": ["tool", "ground"]}]},
-         {"name": "right", "elements": [{"damper": 100, "nodes": ["n3", "n1"]}, {"spring": 0.1, "nodes": ["n3", "ground"]},
-         {"damper": 0.1, "nodes": ["ground", "n1"]}, {"spring": 24, "nodes": ["tool", "n1"]},
+         {"name": "right", "elements": [{"damper": 100, "nodes": ["n3", "n1"]},
+         {"spring": 0.1, "nodes": ["n3", "ground"]}, {"damper": 0.1, "nodes": ["ground", "n1"]}, {"spring": 24, "nodes": ["tool", "n1"]},
          {"slip": 2, "nodes": ["tool", "n3"]}]}])"};
   int written = 0;
   for (const std::string& network : networks)
@@ -118,10 +118,12 @@ TEST(VerifiedHeaders, OfBrakesThatReachOnlyAPartOfTheDampers) {
   Choices choices;
   choices.decomposition = "velocity-free";
   const std::string tree =
-      R"("network": {"series": [{"damper": 8}, {"parallel": [{"slip": 1}, {"series": [{"spring": 300}, {"slip": 0.5}]}]}]})";
+      R"("network": {"series": [{"damper": 8}, {"parallel": [{"slip": 1},
+         {"series": [{"spring": 300}, {"slip": 0.5}]}]}]})";
   const std::string graph =
       R"("elements": [{"damper": 40, "nodes": ["tool", "p"]}, {"damper": 30, "nodes": ["tool", "q"]},
-         {"spring": 20, "nodes": ["p", "q"]}, {"slip": 0.1, "nodes": ["p", "ground"]}, {"slip": 1, "nodes": ["q", "ground"]}])";
+         {"spring": 20, "nodes": ["p", "q"]}, {"slip": 0.1, "nodes": ["p", "ground"]},
+         {"slip": 1, "nodes": ["q", "ground"]}])";
   int written = 0;
   EXPECT_EQ(faults(with_elements(tree), weak_brake, choices, written), "");
   EXPECT_EQ(faults(with_elements(graph), weak_brake, choices, written), "");

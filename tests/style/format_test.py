@@ -1,5 +1,5 @@
-"""Holds every own source to .clang-format and to its 120 columns, the names of C++ tests to one style, and code that asks
-of what kind an element is to one way.
+"""Holds every own source to .clang-format and to its 120 columns, the names of C++ tests to one style, and code
+that asks of what kind an element is to one way.
 
     python3 format_test.py
 
@@ -71,16 +71,19 @@ class Style(unittest.TestCase):
     # Fails if code asks of an element's kind in a way that a new kind passes in silence.
     def test_kinds_of_elements(self):
         asked = re.compile(r"\b(?:get_if|holds_alternative|get)<\s*(?:Spring|Damper|Slip)\s*>")
-        found = [path.relative_to(ROOT).as_posix() for path in sources() if "tests" not in path.parts and asked.search(path.read_text())]
+        found = [path.relative_to(ROOT).as_posix() for path in sources()
+                 if "tests" not in path.parts and asked.search(path.read_text())]
         self.assertEqual(found, [], "match() of compiler/network/element.hpp asks for every kind")
 
     # Fails if a test of C++ is called in another style: words joined by their capitals, as GoogleTest asks for.
     def test_names_of_tests(self):
         templates = sorted((ROOT / "templates").rglob("*.in"))
-        names = [(path, match.group(2)) for path in [*sources(), *templates] for match in TEST_NAME.finditer(path.read_text())]
+        names = [(path, match.group(2)) for path in [*sources(), *templates]
+                 for match in TEST_NAME.finditer(path.read_text())]
         self.assertGreater(len(names), 1000)
-        self.assertEqual([f"{path.relative_to(ROOT)}: {name}" for path, name in names if not re.fullmatch(r"[A-Z][A-Za-z0-9]*", name)],
-                         [])
+        others = [f"{path.relative_to(ROOT)}: {name}" for path, name in names
+                  if not re.fullmatch(r"[A-Z][A-Za-z0-9]*", name)]
+        self.assertEqual(others, [])
 
 
 if __name__ == "__main__":

@@ -288,7 +288,7 @@ class Units(unittest.TestCase):
             self.assertEqual(unit.get("K1"), (200,))
 
     def test_calls_out_of_turn(self):
-        """Fails if a unit steps before it begins or after its end, answers what it has not, or takes NaN or infinity."""
+        """Fails if a unit steps before its start or after its end, answers what it has not or takes NaN or infinity."""
         for name, fmu in self.each_unit():
             unit = self.instance(fmu)
             self.assertEqual(unit.step(0.0, PERIOD), ERROR)

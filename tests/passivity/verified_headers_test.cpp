@@ -87,7 +87,8 @@ TEST(VerifiedHeaders, OfLawsThatWereRefused) {
          {"series": [{"slip": 1}, {"spring": 1287}, {"damper": 0.02}]}]})",
       R"("ports": [{"name": "left", "elements": [{"spring": 115, "nodes": ["tool", "ground"]}]},
          {"name": "right", "elements": [{"damper": 100, "nodes": ["n3", "n1"]},
-         {"spring": 0.1, "nodes": ["n3", "ground"]}, {"damper": 0.1, "nodes": ["ground", "n1"]}, {"spring": 24, "nodes": ["tool", "n1"]},
+         {"spring": 0.1, "nodes": ["n3", "ground"]},
+         {"damper": 0.1, "nodes": ["ground", "n1"]}, {"spring": 24, "nodes": ["tool", "n1"]},
          {"slip": 2, "nodes": ["tool", "n3"]}]}])"};
   int written = 0;
   for (const std::string& network : networks)

@@ -12,7 +12,8 @@
 namespace dashpot::compiler {
 namespace {
 
-// What no parameter and no element is called in the emitted class: names of the law's own, and of its tables.
+// What no parameter and no element is called in the emitted class: names of the law's own, of its tables, and what
+// `verify` calls the numbers without a name (verify/header_constants.hpp).
 constexpr std::string_view names_taken =
     "position force stored held_force step_stiffness springs_stiffness mesh_stiffness mesh_feedthrough mesh_viscosity "
     "feedthrough_damping viscosity half_viscosity wanted_brake steady_brake velocity_gain brake_left assured_damping "
@@ -23,7 +24,7 @@ constexpr std::string_view names_taken =
     "tables threshold scalar damping steady_damping added_damping sample_period parameters values clamped wanted self "
     "none surface_at encoder_step gap approach depth surface_change surface_now surface_recovery surface_back "
     "released pull opposing pushed_force position_change slips_force slips_feedthrough slips_brake slips_wanted "
-    "slips_gain share sampled shifted ";
+    "slips_gain share sampled shifted literals ";
 
 // The same of the map of a static curve (lower/behind_map.cpp).
 constexpr std::string_view names_of_map =

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -233,6 +234,11 @@ struct PortStart {
   VariableId state, value;  // a local of `start`, or the position; 0 where that is not finite
 };
 
+// Of a law of several ports: the port that a constant or table comes from, and what the port's own law calls it.
+struct NameInPort {
+  std::string port, name;
+};
+
 struct UpdateLaw {
   ScalarType scalar = ScalarType::float64;
   Scheme scheme = Scheme::exact;
@@ -272,12 +278,13 @@ struct UpdateLaw {
   VariableId started_at = no_variable;  // the local of `start` that reset() sets rest_position to, if not the position
   std::optional<double> surface_at;     // of a contact: where the unloaded surface lies [m]
   std::vector<PortStart> starts;        // of several ports, one for each that holds a position
-  VariableId mapped = no_variable;      // w of the position, a local of `output`, behind a static curve
-  double steepest = 1;                  // w′ at most [1]
-  double map_start = 0;                 // where w is 0 [m]
-  VariableId force;                     // m_k, the motor's command [N]
-  VariableId wanted = no_variable;      // m_k before the motor's limits, where the law knows them (lower/shed.hpp) [N]
-  VariableId share = no_variable;  // where it sheds, the state that remembers which share of all forces it kept [1]
+  std::map<std::string, NameInPort> names_in_ports;  // of several ports, by the name in this law
+  VariableId mapped = no_variable;                   // w of the position, a local of `output`, behind a static curve
+  double steepest = 1;                               // w′ at most [1]
+  double map_start = 0;                              // where w is 0 [m]
+  VariableId force;                                  // m_k, the motor's command [N]
+  VariableId wanted = no_variable;  // m_k before the motor's limits, where the law knows them (lower/shed.hpp) [N]
+  VariableId share = no_variable;   // where it sheds, the state that remembers which share of all forces it kept [1]
   VariableId brake =
       no_variable;  // b_k where it changes with the regime, a local of `output`, finite where `force` is [N·s/m]
   VariableId last_brake = no_variable;  // the state that remembers it: what a non-finite sample is answered with

@@ -41,11 +41,17 @@ class Appending {
     return id == own_.last_brake && id != no_variable && !reads(own_, own_.output, id) && !reads(own_, own_.update, id);
   }
 
+  std::string name_in_all(const std::string& own) {
+    std::string name = writer_.unique(joined(name_, own));
+    law_.names_in_ports[name] = {name_, own};
+    return name;
+  }
+
   template <class Entry>
   Entry renamed(Entry entry) {
-    entry.name = writer_.unique(joined(name_, entry.name));
+    entry.name = name_in_all(entry.name);
     if constexpr (requires { entry.element_names; })
-      for (std::string& name : entry.element_names) name = writer_.unique(joined(name_, name));
+      for (std::string& name : entry.element_names) name = name_in_all(name);
     return entry;
   }
 

@@ -91,7 +91,8 @@ std::string name_before(std::string_view code, std::size_t end) {
 bool read_declared(std::string_view declaration, HeaderConstants& result) {
   const std::size_t equals = declaration.find(" = ");
   if (equals == declaration.npos || declaration.substr(0, equals).find("scalar") == declaration.npos) return true;
-  HeaderConstant constant{name_before(declaration, equals), {}};
+  const std::string name = name_before(declaration, equals);
+  HeaderConstant constant{name, {}, name};
   if (!read_literals(declaration.substr(equals), result.scalar, constant.values)) return false;
   if (!constant.values.empty()) result.all.push_back(std::move(constant));
   return true;
@@ -117,7 +118,7 @@ std::optional<HeaderConstants> header_constants(std::string_view header) {
   else if (header.find("using scalar = double;") == header.npos) return std::nullopt;
   std::string code = without_remarks(header);
   if (!read_all_declared(code, result)) return std::nullopt;
-  HeaderConstant others{literals_in_code, {}};
+  HeaderConstant others{literals_in_code, {}, literals_in_code};
   if (!read_literals(code, result.scalar, others.values)) return std::nullopt;
   std::erase(others.values, 0);
   if (!others.values.empty()) result.all.push_back(std::move(others));

@@ -11,8 +11,9 @@
 namespace dashpot::compiler {
 
 struct HeaderConstant {
-  std::string name;
+  std::string name;  // as its law has it; of a port without the port's name
   std::vector<double> values;
+  std::string written;  // as the header has it
 };
 
 struct HeaderConstants {
@@ -21,7 +22,7 @@ struct HeaderConstants {
 };
 
 // The name under which the numbers come that stand in no constant's declaration: what begins a state or a parameter, or
-// is an argument. Zeros are left out.
+// is an argument. Zeros are left out. No constant of a law is called so.
 inline constexpr const char* literals_in_code = "literals";
 
 // Every number of the scalar's type that is code. Empty where a constant's value is no finite number, or the scalar is

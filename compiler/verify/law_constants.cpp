@@ -1,5 +1,7 @@
 #include "verify/law_constants.hpp"
 
+#include <fmt/format.h>
+
 namespace dashpot::compiler {
 
 std::optional<LawConstant> constant_called(const std::string& name, std::size_t values, const UpdateLaw& law) {
@@ -52,17 +54,24 @@ bool is_chosen(ConstantRole role) {
   return false;
 }
 
-void compare(const HeaderValue& value, const Reference& exact, ScalarType scalar, Diagnostics& diagnostics) {
-  if (is_correctly_rounded(value.value, exact, scalar)) return;
-  diagnostics.report<DiagnosticCode::constant_wrong>({}, value.name, value.place + 1, value.value, exact.str(20));
+std::string shown(const HeaderConstant& constant, std::size_t place) {
+  if (constant.written == literals_in_code) return "a number without a name in the code";
+  return constant.values.size() == 1 ? fmt::format("'{}'", constant.written)
+                                     : fmt::format("place {} of '{}'", place + 1, constant.written);
+}
+
+void compare(const HeaderConstant& constant, std::size_t place, const Reference& exact, ScalarType scalar,
+             Diagnostics& diagnostics) {
+  const double value = constant.values[place];
+  if (is_correctly_rounded(value, exact, scalar)) return;
+  diagnostics.report<DiagnosticCode::constant_wrong>({}, shown(constant, place), value, exact.str(20));
 }
 
 void compare(const HeaderConstant& constant, const std::vector<Reference>& exact, ScalarType scalar,
              Diagnostics& diagnostics) {
   if (constant.values.size() != exact.size())
-    return diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.name);
-  for (std::size_t i = 0; i < exact.size(); ++i)
-    compare({constant.name, i, constant.values[i]}, exact[i], scalar, diagnostics);
+    return diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.written);
+  for (std::size_t i = 0; i < exact.size(); ++i) compare(constant, i, exact[i], scalar, diagnostics);
 }
 
 void compare_with_facts(const HeaderConstant& constant, const Compilation& compiled, const LawFacts& facts,
@@ -72,7 +81,7 @@ void compare_with_facts(const HeaderConstant& constant, const Compilation& compi
   if (constant.name == "added_damping" && single == compiled.certificate.added_damping) return;
   const auto known = reference_constants({}, facts);
   const bool is_fact = constant.name == "sample_period" || constant.name == "threshold";
-  if (!is_fact) return diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.name);
+  if (!is_fact) return diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.written);
   compare(constant, known.at(constant.name), facts.scalar, diagnostics);
 }
 

@@ -25,15 +25,12 @@ std::optional<LawConstant> constant_called(const std::string& name, std::size_t 
 // Whether it is chosen, or of device or map, and no function of the network alone.
 bool is_chosen(ConstantRole role);
 
-// One number of a header's constant.
-struct HeaderValue {
-  const std::string& name;
-  std::size_t place;
-  double value;
-};
+// One of the numbers of a constant, for messages: its name in the header and, of a list, the place from 1.
+std::string shown(const HeaderConstant& constant, std::size_t place);
 
 // These report values that are not the nearest number of the scalar's type; for a list also a wrong number of values.
-void compare(const HeaderValue& value, const Reference& exact, ScalarType scalar, Diagnostics& diagnostics);
+void compare(const HeaderConstant& constant, std::size_t place, const Reference& exact, ScalarType scalar,
+             Diagnostics& diagnostics);
 void compare(const HeaderConstant& constant, const std::vector<Reference>& exact, ScalarType scalar,
              Diagnostics& diagnostics);
 

@@ -1,51 +1,33 @@
 #include "verify/port_constants.hpp"
 
 #include <algorithm>
+#include <string_view>
+
+#include "verify/law_constants.hpp"
 
 namespace dashpot::compiler {
 
 namespace {
 
-// What a name is without the port's; empty where it is not the port's.
-std::string without_port(const std::string& constant, const VerifiedPort& port) {
-  return constant.starts_with(port.name + "_") ? constant.substr(port.name.size() + 1) : "";
-}
-
-bool is_of_law(const std::string& name, const UpdateLaw& law) {
-  return std::any_of(law.coefficients.begin(), law.coefficients.end(), [&](const Coefficient& c) {
-    const std::vector<std::string>& names = c.element_names;
-    return c.name == name || std::find(names.begin(), names.end(), name) != names.end();
-  });
-}
-
-// The same without what keeps apart what would be called alike, where the port's law has such a constant.
-std::string own_name(const std::string& name, const VerifiedPort& port) {
-  const std::size_t end = name.find_last_not_of("0123456789");
-  const bool is_numbered = end != name.npos && end + 1 < name.size() && name[end] == '_';
-  if (!is_of_law(name, *port.law) && is_numbered && is_of_law(name.substr(0, end), *port.law))
-    return name.substr(0, end);
-  return name;
+// Tables of slips that are no tree are written as several constants, each with an end of its own behind their name.
+std::optional<NameInPort> name_in_port(const std::string& written, const UpdateLaw& law) {
+  if (const auto found = law.names_in_ports.find(written); found != law.names_in_ports.end()) return found->second;
+  for (const std::string_view end : {"_links", "_between", "_to_tool", "_to_ground"}) {
+    if (!written.ends_with(end)) continue;
+    const auto found = law.names_in_ports.find(written.substr(0, written.size() - end.size()));
+    if (found != law.names_in_ports.end()) return NameInPort{found->second.port, found->second.name + std::string(end)};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<std::size_t> port_of(const std::string& constant, const std::vector<VerifiedPort>& ports) {
-  std::optional<std::size_t> best;
-  bool is_known = false;
-  for (std::size_t i = 0; i < ports.size(); ++i) {
-    const std::string own = without_port(constant, ports[i]);
-    if (own.empty()) continue;
-    const bool is_own = is_of_law(own_name(own, ports[i]), *ports[i].law);
-    const bool is_longer = !best || ports[i].name.size() > ports[*best].name.size();
-    if (is_own > is_known || (is_own == is_known && is_longer)) best = i, is_known = is_own;
-  }
-  return best;
-}
-
-void give(const HeaderConstant& constant, VerifiedPort& port) {
-  HeaderConstant own = constant;
-  own.name = own_name(without_port(constant.name, port), port);
-  port.constants.push_back(std::move(own));
+bool give_to_port(const HeaderConstant& constant, const UpdateLaw& law, std::vector<VerifiedPort>& ports) {
+  const std::optional<NameInPort> own = name_in_port(constant.written, law);
+  if (!own) return false;
+  for (VerifiedPort& port : ports)
+    if (port.name == own->port) port.constants.push_back({own->name, constant.values, constant.written});
+  return true;
 }
 
 void recompute_port(const VerifiedPort& port, ScalarType scalar, Diagnostics& diagnostics) {
@@ -68,7 +50,7 @@ void look_at_literals(const HeaderConstant& literals, const UpdateLaw& law, Diag
                                      [&](const Variable& variable) { return variable.rest_value == value; });
     const bool is_tie = std::any_of(law.networks.begin(), law.networks.end(),
                                     [&](const SlipNetwork& network) { return network.through == value; });
-    if (!is_rest && !is_tie) diagnostics.report<DiagnosticCode::constant_of_nothing>({}, literals.name, i + 1, value);
+    if (!is_rest && !is_tie) diagnostics.report<DiagnosticCode::constant_of_nothing>({}, shown(literals, i), value);
   }
 }
 
@@ -76,7 +58,7 @@ void compare_with_written(const HeaderConstant& constant, const UpdateLaw& law, 
   const bool is_one = std::any_of(law.coefficients.begin(), law.coefficients.end(), [&](const Coefficient& c) {
     return c.name == constant.name && c.values == constant.values;
   });
-  if (!is_one) diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.name);
+  if (!is_one) diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.written);
 }
 
 }  // namespace dashpot::compiler

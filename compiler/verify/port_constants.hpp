@@ -15,15 +15,11 @@ struct VerifiedPort {
   const Compilation* compiled;
   const UpdateLaw* law;
   Choices choices;
-  std::vector<HeaderConstant> constants = {};  // of the header, without the port's name
+  std::vector<HeaderConstant> constants = {};  // of the header, as the port's law calls them
 };
 
-// The port whose name the constant's name begins with, and whose law has a constant called like the rest; of several
-// such, or if there is none, the longest name. Empty if the constant's name begins with no port's.
-std::optional<std::size_t> port_of(const std::string& constant, const std::vector<VerifiedPort>& ports);
-
-// Gives the port a constant of the header. What only keeps equal names apart is no part of the port's own names.
-void give(const HeaderConstant& constant, VerifiedPort& port);
+// Gives a constant of the header to the port that `law`, that of all ports, has it from. False if it is of no port.
+bool give_to_port(const HeaderConstant& constant, const UpdateLaw& law, std::vector<VerifiedPort>& ports);
 
 // Computes all constants of the port anew, and reports every disagreement.
 void recompute_port(const VerifiedPort& port, ScalarType scalar, Diagnostics& diagnostics);

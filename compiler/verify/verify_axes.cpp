@@ -52,14 +52,23 @@ class AxesVerification {
     if (constant.name == "added_damping") return compare_additions(constant);
     const auto known = named_.find(constant.name);
     if (known != named_.end() && constant.values.size() == 1)
-      return compare({constant.name, 0, constant.values.front()}, known->second, header_.scalar, diagnostics_);
+      return compare(constant, 0, known->second, header_.scalar, diagnostics_);
     if (c_.certificate.gate && is_of_gate(constant.name)) return gate_.push_back(constant);
-    const std::optional<std::size_t> port = port_of(constant.name, ports_);
-    if (!port) return recompute_field_table(constant), compare_with_written(constant, c_.law, diagnostics_);
-    if (std::holds_alternative<axes::Grid>(c_.network.ports[*port].map) &&
-        constant.name.starts_with(c_.network.ports[*port].name + "_map_"))
-      return grids_[*port].push_back(constant), compare_with_written(constant, c_.law, diagnostics_);
-    give(constant, ports_[*port]);
+    if (give_to_port(constant, c_.law, ports_)) return;
+    if (const std::optional<std::size_t> port = port_of_map(constant.name)) grids_[*port].push_back(constant);
+    else recompute_field_table(constant);
+    compare_with_written(constant, c_.law, diagnostics_);
+  }
+
+  // The port over a grid that has this table; of two whose names both begin it, the longer.
+  std::optional<std::size_t> port_of_map(const std::string& table) const {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < ports_.size(); ++i) {
+      const bool is_its_own =
+          std::holds_alternative<axes::Grid>(c_.network.ports[i].map) && table.starts_with(ports_[i].name + "_map_");
+      if (is_its_own && (!best || ports_[i].name.size() > ports_[*best].name.size())) best = i;
+    }
+    return best;
   }
 
   // A port may be called 'gate'.
@@ -90,7 +99,7 @@ class AxesVerification {
       if (due == all.end() || due->values.size() != 1 || constant.values.size() != 1)
         compare_with_written(constant, c_.law, diagnostics_);
       else if (due->values != constant.values)
-        diagnostics_.report<DiagnosticCode::constant_wrong>({}, constant.name, 1, constant.values.front(),
+        diagnostics_.report<DiagnosticCode::constant_wrong>({}, shown(constant, 0), constant.values.front(),
                                                             fmt::format("{:.17g}", due->values.front()));
     }
   }
@@ -105,8 +114,7 @@ class AxesVerification {
     const double rounding = header_.scalar == ScalarType::float64 ? 1e-15 : 1e-6;
     const auto expect = [&](std::size_t place, const Reference& due, double within) {
       if (abs(Reference(table.values[place]) - due) > Reference(within))
-        diagnostics_.report<DiagnosticCode::constant_wrong>({}, table.name, place + 1, table.values[place],
-                                                            due.str(20));
+        diagnostics_.report<DiagnosticCode::constant_wrong>({}, shown(table, place), table.values[place], due.str(20));
     };
     for (const std::size_t axis : {0u, 1u}) {
       if (name != (axis == 0 ? "column" : "row") && name != (axis == 0 ? "corner_x" : "corner_y")) continue;
@@ -155,7 +163,8 @@ class AxesVerification {
     const auto expect = [&](const std::string& name, std::size_t place, double value, const Reference& due,
                             double within) {
       if (abs(Reference(value) - due) > Reference(within))
-        diagnostics_.report<DiagnosticCode::constant_wrong>({}, port + "_map_" + name, place + 1, value, due.str(20));
+        diagnostics_.report<DiagnosticCode::constant_wrong>(
+            {}, fmt::format("place {} of '{}_map_{}'", place + 1, port, name), value, due.str(20));
     };
     std::array<std::vector<double>, 16> cells;
     for (std::size_t k = 0; k < cells.size(); ++k) {

@@ -56,7 +56,8 @@ void verify_gate(const axes::CurlGate& gate, const AxesDevice& device, const Hea
   const double slack = header.scalar == ScalarType::float64 ? 1e-9 : 1e-6;
   const auto at_most = [&](const char* name, double value, double limit) {
     if (value > 0 && value <= limit * (1 + slack)) return;
-    diagnostics.report<DiagnosticCode::constant_wrong>({}, name, 1, value, fmt::format("at most {:.17g}", limit));
+    diagnostics.report<DiagnosticCode::constant_wrong>({}, fmt::format("'{}'", name), value,
+                                                       fmt::format("at most {:.17g}", limit));
   };
   const loop_description& loop = device.loop();
   const double late = loop.write_latest > 0 ? loop.delay_samples + 1.0 : loop.delay_samples;
@@ -76,7 +77,7 @@ void verify_gate(const axes::CurlGate& gate, const AxesDevice& device, const Hea
   const double reserve = number("gate_reserve", gate.reserve), recovery = number("gate_recovery", gate.recovery);
   const double due = std::abs(recovery) * ages;
   if (recovery < 0 || reserve < due * (1 - slack))
-    diagnostics.report<DiagnosticCode::constant_wrong>({}, "gate_reserve", 1, reserve,
+    diagnostics.report<DiagnosticCode::constant_wrong>({}, "'gate_reserve'", reserve,
                                                        fmt::format("at least {:.17g}", due));
 }
 

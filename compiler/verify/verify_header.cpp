@@ -26,7 +26,14 @@ bool is_of_motor_reach(const std::string& kind) {
          kind == "no_shift";
 }
 
-using Groups = std::map<std::string, std::vector<double>>;
+// A number of a constant in the header.
+struct Place {
+  const HeaderConstant* constant;
+  std::size_t place;
+
+  double value() const { return constant->values[place]; }
+};
+using Groups = std::map<std::string, std::vector<Place>>;
 
 // The constants of all modes under the name of their kind, in the order of the header; others under their own.
 std::string kind_of(const std::string& name) {
@@ -40,15 +47,15 @@ std::string kind_of(const std::string& name) {
 Groups grouped(const HeaderConstants& header) {
   Groups groups;
   for (const HeaderConstant& constant : header.all) {
-    std::vector<double>& values = groups[kind_of(constant.name)];
-    values.insert(values.end(), constant.values.begin(), constant.values.end());
+    std::vector<Place>& places = groups[kind_of(constant.name)];
+    for (std::size_t i = 0; i < constant.values.size(); ++i) places.push_back({&constant, i});
   }
   return groups;
 }
 
 double value_of(const Groups& groups, const std::string& kind) {
   const auto found = groups.find(kind);
-  return found == groups.end() ? 0 : found->second.front();
+  return found == groups.end() ? 0 : found->second.front().value();
 }
 
 MotorConstants motor_of(const Groups& groups) {
@@ -62,7 +69,7 @@ MotorConstants motor_of(const Groups& groups) {
     const auto found = groups.find(kind);
     if (found == groups.end()) return;
     motor.modes.resize(std::max(motor.modes.size(), found->second.size()));
-    for (std::size_t i = 0; i < found->second.size(); ++i) motor.modes[i].*member = found->second[i];
+    for (std::size_t i = 0; i < found->second.size(); ++i) motor.modes[i].*member = found->second[i].value();
   };
   take("decay", &MotorMode::decay);
   take("loss", &MotorMode::loss);
@@ -86,12 +93,16 @@ class Verification {
     const LawFacts facts = {*certificate_.choices.rate, certificate_.choices.scheme, certificate_.choices.scalar,
                             *certificate_.choices.state_input, certificate_.damping};
     const auto expected = reference_constants(reference_form(network), facts);
-    for (const auto& [kind, values] : groups_) {
+    for (const auto& [kind, places] : groups_) {
       if (kind == "damping" || kind == "added_damping") continue;  // of the bounds
       if (is_of_motor_reach(kind)) continue;                       // of the device, with the code around them
       const auto exact = expected.find(kind);
-      if (exact == expected.end()) diagnostics_.report<DiagnosticCode::unknown_constant>({}, kind);
-      else compare({kind, values}, exact->second, header_.scalar, diagnostics_);
+      if (exact == expected.end() || exact->second.size() != places.size()) {
+        diagnostics_.report<DiagnosticCode::unknown_constant>({}, places.front().constant->written);
+        continue;
+      }
+      for (std::size_t i = 0; i < places.size(); ++i)
+        compare(*places[i].constant, places[i].place, exact->second[i], header_.scalar, diagnostics_);
     }
     for (const char* kind : {"static_stiffness", "step_stiffness", "velocity_gain"})
       if (groups_.count(kind) == 0 && !is_correctly_rounded(0, expected.at(kind).front(), header_.scalar))
@@ -127,7 +138,7 @@ class Verification {
 
   std::size_t constants() const {
     std::size_t count = 0;
-    for (const auto& [kind, values] : groups_) count += values.size();
+    for (const auto& [kind, places] : groups_) count += places.size();
     return count;
   }
 
@@ -188,9 +199,7 @@ void recompute_ports(const CertificateFile& certificate, const HeaderConstants& 
   const LawFacts facts = {*certificate.choices.rate, certificate.choices.scheme, certificate.choices.scalar,
                           StateInput::position, 0};
   for (const HeaderConstant& constant : header.all) {
-    const std::optional<std::size_t> port = port_of(constant.name, ports);
-    if (port) give(constant, ports[*port]);
-    else look_at_sum(constant, compiled, facts, diagnostics);
+    if (!give_to_port(constant, compiled.law, ports)) look_at_sum(constant, compiled, facts, diagnostics);
   }
   for (const VerifiedPort& port : ports) recompute_port(port, header.scalar, diagnostics);
 }
@@ -211,7 +220,7 @@ void compare_constants(const std::map<std::string, std::vector<double>>& stated,
     if (found[name] != values)
       diagnostics.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "header", name);
   for (const HeaderConstant& constant : header.all)
-    if (stated.count(constant.name) == 0) diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.name);
+    if (stated.count(constant.name) == 0) diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.written);
 }
 
 std::size_t verify_linear_constants(const CertificateFile& certificate, const Network& network,

@@ -36,22 +36,23 @@ void SlipVerification::look_at(const HeaderConstant& constant) {
   if (const auto table = table_called(constant.name)) return compare(constant, *table, header_.scalar, diagnostics_);
   const auto known = constant_called(constant.name, constant.values.size(), compiled_.law);
   if (!known) return compare_with_facts(constant, compiled_, facts_, diagnostics_);
-  for (std::size_t i = 0; i < constant.values.size(); ++i)
-    look_at({constant.name, i, constant.values[i]}, *known->coefficient, known->first + i);
+  for (std::size_t i = 0; i < constant.values.size(); ++i) look_at(constant, i, *known->coefficient, known->first + i);
 }
 
-void SlipVerification::look_at(const HeaderValue& value, const Coefficient& constant, std::size_t place) {
+void SlipVerification::look_at(const HeaderConstant& written, std::size_t number, const Coefficient& constant,
+                               std::size_t place) {
+  const double value = written.values[number];
   if (is_chosen(constant.role)) {
-    if (value.value != constant.values[place]) diagnostics_.report<DiagnosticCode::unknown_constant>({}, value.name);
+    if (value != constant.values[place]) diagnostics_.report<DiagnosticCode::unknown_constant>({}, written.written);
     return;
   }
   std::optional<Reference> exact = equations_.value(constant, place);
   if (!exact) {
-    diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, value.name, value.place + 1, value.value);
+    diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, shown(written, number), value);
     return;
   }
-  if (constant.role == ConstantRole::mode_weight) exact = signed_weight(value.value, constant, *exact);
-  compare(value, *exact, header_.scalar, diagnostics_);
+  if (constant.role == ConstantRole::mode_weight) exact = signed_weight(value, constant, *exact);
+  compare(written, number, *exact, header_.scalar, diagnostics_);
 }
 
 // A mode's weights are known but for their common sign: the first that is met tells it.
@@ -81,7 +82,8 @@ std::optional<SlipEquations::Values> SlipVerification::table_called(const std::s
 // What joins tool and ground has no name in the header: it is an argument of the step.
 void SlipVerification::look_at_through(const SlipNetwork& table) {
   if (const std::optional<Reference> exact = equations_.through(table))
-    compare({table.name, 0, table.through}, *exact, header_.scalar, diagnostics_);
+    compare({table.name, {table.through}, table.name + ", from tool to ground"}, 0, *exact, header_.scalar,
+            diagnostics_);
 }
 
 // The cut once more, of which the certificate may ask no less, and, but for its margin, no more.

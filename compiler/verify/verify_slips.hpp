@@ -23,7 +23,7 @@ class SlipVerification {
 
  private:
   void look_at(const HeaderConstant& constant);
-  void look_at(const HeaderValue& value, const Coefficient& constant, std::size_t place);
+  void look_at(const HeaderConstant& written, std::size_t number, const Coefficient& constant, std::size_t place);
   void look_at_through(const SlipNetwork& table);
   std::optional<SlipEquations::Values> table_called(const std::string& name) const;
   Reference signed_weight(double written, const Coefficient& constant, const Reference& exact);

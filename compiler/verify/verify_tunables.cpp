@@ -30,11 +30,12 @@ void TunableVerification::look_at(const HeaderConstant& constant) {
   if (!known) return compare_with_facts(constant, compiled_, facts_, diagnostics_);
   const Coefficient& coefficient = *known->coefficient;
   if (is_chosen(coefficient.role)) {
-    if (constant.values != coefficient.values) diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
+    if (constant.values != coefficient.values)
+      diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.written);
   } else if (const auto exact = equations_.value(coefficient)) {
     compare(constant, {*exact}, header_.scalar, diagnostics_);
   } else {
-    diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, constant.name, 1, constant.values.front());
+    diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, shown(constant, 0), constant.values.front());
   }
 }
 
@@ -67,7 +68,7 @@ void TunableVerification::look_at_literals(const HeaderConstant& literals) {
       return variable.is_kept() && (variable.rest_value == value || variable.rest_value == -value);
     });
     if (!is_begun_with && !is_yield(value) && !is_yield(-value) && !is_of_contact(value))
-      diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, literals.name, i + 1, value);
+      diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, shown(literals, i), value);
   }
 }
 

@@ -457,9 +457,24 @@ class Verify(CommandTest):
                     told = json.loads(certificate)
                     told["constants"][name] = [other]
                     changed = header[:constant.start(2)] + repr(other) + header[constant.end(2):]
-                    self.assertIn(f"'{name}' of place", self.verify(changed, json.dumps(told), f"least_{refused}", INPUT_REFUSED).stderr)
+                    words = self.verify(changed, json.dumps(told), f"least_{refused}", INPUT_REFUSED).stderr
+                    self.assertIn(f"'{name}' is", words)
                     refused += 1
         self.assertGreaterEqual(refused, 18)
+
+    def test_messages_name_a_constant_as_the_header_does(self):
+        """Fails if a wrong constant is told without its port's name, or the place of a list without the list."""
+        ports = [{"name": "left", "network": {"parallel": [{"spring": 5}, {"series": [{"slip": 2}, {"spring": 11}]}]}},
+                 {"name": "right", "network": {"spring": 7}}]
+        self.write("two.json", json.dumps({"name": "two", "dashpot": 1, "ports": ports}))
+        for law, pattern, told in (("two.json", r"(left_static_stiffness = )[^;]+", "'left_static_stiffness'"),
+                                   ("two.json", r"(right_static_stiffness = )[^;]+", "'right_static_stiffness'"),
+                                   ("coupled.json", r"(slip_part::slip, [^}]*, )[^,}]+", r"place \d+ of 'coupled_\w+'")):
+            header, certificate = self.emitted([law], law.removesuffix(".json"))
+            changed, count = re.subn(pattern, r"\g<1>0.125", header, count=1)
+            self.assertEqual(count, 1, law)
+            words = self.verify(changed, certificate, "changed", INPUT_REFUSED).stderr
+            self.assertRegex(words, told + r" is 0\.125; recomputed")
 
     def test_what_is_no_certificate(self):
         """Fails if another file in the place of a certificate or a header is taken for one."""

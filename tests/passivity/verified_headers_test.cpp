@@ -113,6 +113,26 @@ TEST(VerifiedHeaders, OfLawsThatWereRefused) {
   EXPECT_EQ(faults(with_elements(slow), lags, by_sample, written), "");
 }
 
+// Sound headers would be refused: an element called as `verify` calls numbers without a name, a port whose name begins
+// one of the law's own constants, two ports whose constants would be called alike.
+TEST(VerifiedHeaders, OfNamesThatWereMistaken) {
+  const std::string networks[] = {
+      R"("parameters": {"K": {"value": 12, "tunable": true, "min": 0, "max": 100}},
+         "network": {"series": [{"spring": "K"}, {"damper": 0.353, "name": "literals"}, {"slip": 0.07}]})",
+      R"("ports": [{"name": "sample", "network": {"parallel": [{"spring": 5},
+         {"series": [{"slip": 2}, {"spring": 11}]}]}}, {"name": "q", "network": {"spring": 7}}])",
+      R"("ports": [{"name": "a", "network": {"series": [{"slip": 1, "name": "b_S"}, {"spring": 4}]}},
+         {"name": "a_b", "network": {"series": [{"slip": 2, "name": "S"}, {"spring": 5}]}}])",
+      R"("ports": [{"name": "a", "network": {"series": [{"slip": 1, "name": "b_S"},
+         {"parallel": [{"spring": 4}, {"series": [{"spring": 4}, {"damper": 4}]}]}]}},
+         {"name": "a_b", "network": {"series": [{"slip": 2, "name": "S"},
+         {"parallel": [{"spring": 4}, {"series": [{"spring": 7}, {"damper": 4}]}]}]}}])"};
+  int written = 0;
+  for (const std::string& network : networks)
+    EXPECT_EQ(faults(with_elements(network), std::nullopt, Choices(), written), "") << network;
+  EXPECT_EQ(written, 4);
+}
+
 // Fails if the part of a regime's dampers that a weak brake can take is refused, in a tree or in none.
 TEST(VerifiedHeaders, OfBrakesThatReachOnlyAPartOfTheDampers) {
   const std::string weak_brake = text_of("runtime/devices/pantograph_brake_2009.json");

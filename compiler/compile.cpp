@@ -54,8 +54,8 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
   };
   const std::vector<VariedDevice> devices = with_assumed_varied(*c.device);
   for (const VariedDevice& varied : devices) {
-    Diagnostics unheard;
-    const std::optional<PortDevice> port = PortDevice::of(varied.device, present, unheard);
+    Diagnostics of_varied;  // a device that would be refused moves nothing
+    const std::optional<PortDevice> port = PortDevice::of(varied.device, present, of_varied);
     if (!port) continue;
     const double again = chosen_on(*port, varied.device);
     moves.least = std::min(moves.least, again);

@@ -106,10 +106,10 @@ std::optional<std::vector<Compilation>> ports_on(Network& network, const Choices
                                                  const std::optional<Device>& device, Diagnostics& diagnostics) {
   const std::vector<DeviceShare> whole(network.ports.size());
   if (!device) return each_port(network, choices, device, whole, diagnostics);
-  Diagnostics unheard;
+  Diagnostics of_trial;  // what is wrong on the whole device is wrong on a share of it, and reported there
   Choices quickly = choices;
   quickly.compared = Compared::nothing;
-  const auto alone = each_port(network, quickly, device, whole, unheard);
+  const auto alone = each_port(network, quickly, device, whole, of_trial);
   return each_port(network, choices, device, alone ? shares_of(*alone) : whole, diagnostics);
 }
 

@@ -41,10 +41,10 @@ const Lateness limited_slew{"no \"slew\"", [](device_description& d) { d.motor.s
 
 // The network compiled on another device, or another network on the same: whatever is recommended has been tried.
 std::optional<Compilation> compiled(const Network& network, Choices choices, const Device& device) {
-  Diagnostics unheard;
+  Diagnostics of_trial;  // what does not compile is not recommended
   StageTimes unseen;
   choices.compared = Compared::nothing;
-  return compile(network, choices, device, unheard, unseen);
+  return compile(network, choices, device, of_trial, unseen);
 }
 
 // Of what is felt: in the band or, where slips give way, in runs around yield.

@@ -37,8 +37,8 @@ class BoxChoice {
     settler_.place(result.candidate, damping);
     Decomposition tried = decomposition_;
     tried.candidates[tried.chosen] = result.candidate;
-    Diagnostics unheard;
-    std::optional<UpdateLaw> law = discretise_tunable(network_, form_, tried, choices_, rate_, port_, unheard);
+    Diagnostics of_trial;  // a damping at which no law can be written is not chosen
+    std::optional<UpdateLaw> law = discretise_tunable(network_, form_, tried, choices_, rate_, port_, of_trial);
     if (!law) return std::nullopt;
     const SampledLoop loop = sampled_loop(port_, 1 / rate_);
     const std::optional<SlipMotor> slips = slip_motor(network_, form_, tried, choices_, loop);

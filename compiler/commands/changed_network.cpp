@@ -157,8 +157,7 @@ const SourceFile* open_network(const std::string& path, const Options& options, 
     return nullptr;
   }
   if (file == nullptr || (!options.name && options.set.empty())) return file;
-  Diagnostics unheard;
-  const std::optional<JsonValue> root = parse_json(*file, unheard);
+  const std::optional<JsonValue> root = json_in(*file);
   if (!root || root->kind != Kind::object) return file;
   NetworkChanger changer(*root, diagnostics);
   if (options.name) changer.rename(*options.name);

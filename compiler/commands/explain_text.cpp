@@ -97,9 +97,9 @@ std::string push_text(const Compilation& c, const PortUnits& units) {
   if (!(depth > 0) || !(rate > 0) || !(samples <= most_samples)) return "";
   Choices choices;
   choices.rate = c.rate;
-  Diagnostics told_already;
+  Diagnostics of_whole;  // the network has been compiled for the device, and what it is told of then has been told
   StageTimes unseen;
-  const std::optional<Compilation> whole = compile(c.network, choices, std::nullopt, told_already, unseen);
+  const std::optional<Compilation> whole = compile(c.network, choices, std::nullopt, of_whole, unseen);
   if (!whole) return "";
   const double at = c.network.surface();
   Evaluation<double> run(whole->law);

@@ -411,14 +411,10 @@ std::optional<JointMotion> parse_joint_motion(const SourceFile& file, Diagnostic
   return CsvTable(file, diagnostics).read_joints();
 }
 
-bool is_motion(const SourceFile& beginning) {
-  Diagnostics unheard;
-  return CsvTable(beginning, unheard).is_motion();
-}
-
-bool is_joint_motion(const SourceFile& beginning) {
-  Diagnostics unheard;
-  return CsvTable(beginning, unheard).is_joint_motion();
+std::optional<MotionOf> motion_in(const SourceFile& beginning) {
+  Diagnostics of_reader;
+  if (CsvTable(beginning, of_reader).is_joint_motion()) return MotionOf::joints;
+  return CsvTable(beginning, of_reader).is_motion() ? std::optional(MotionOf::port) : std::nullopt;
 }
 
 bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics) {

@@ -55,10 +55,12 @@ struct JointMotion {
 // As parse_motion(), but for the names of joints, which are these alone.
 std::optional<JointMotion> parse_joint_motion(const SourceFile& file, Diagnostics& diagnostics);
 
-// Whether a table that begins so is a motion: a line that names time and position, and no force, stress or anything
-// else that answered them; or what `simulate` and `run` have written, which they read again.
-bool is_motion(const SourceFile& beginning);
-bool is_joint_motion(const SourceFile& beginning);
+enum class MotionOf { port, joints };
+
+// Of what a table that begins so is a motion: its first line names time and position, and no force, stress or anything
+// else that answered them; or `simulate` and `run` have written it, which read it again. Empty where it is none. What
+// is wrong with it is for who reads it then to report.
+std::optional<MotionOf> motion_in(const SourceFile& beginning);
 
 // Refuses a motion in degrees for a tool that moves in metres, and the other way round.
 bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics);

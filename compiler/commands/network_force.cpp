@@ -105,7 +105,7 @@ std::optional<Compilation> compiled_finely(const Compilation& c, const Choices& 
   Diagnostics of_rates;  // what a finer rate is told of is not for the device
   StageTimes unseen;
   std::optional<Compilation> compiled = compile(c.network, fine, std::nullopt, of_rates, unseen);
-  if (!compiled) compile(c.network, fine, std::nullopt, diagnostics, unseen);
+  if (!compiled) diagnostics.take_errors(of_rates);
   return compiled;
 }
 

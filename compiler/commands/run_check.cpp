@@ -22,21 +22,20 @@ bool is_table(const std::string& path) {
 
 // What --columns or --no-header is given for is a recording; else the header tells.
 bool is_recording(const std::string& path, const FitWords& words) {
-  Diagnostics unheard;
+  Diagnostics of_reader;  // a file that cannot be read is taken for a recording, whose reader reports it
   std::string head;
   fitting::LineReader lines(path, fitting::ReadProgress());
-  if (words.columns || words.no_header || !lines.open(unheard)) return true;
+  if (words.columns || words.no_header || !lines.open(of_reader)) return true;
   while (lines.number() < fitting::head_lines)
-    if (const auto line = lines.next(unheard)) head.append(*line) += '\n';
+    if (const auto line = lines.next(of_reader)) head.append(*line) += '\n';
     else break;
   const SourceFile beginning(path, head);
-  return !is_motion(beginning) && !is_joint_motion(beginning);
+  return !motion_in(beginning);
 }
 
 // What is no JSON is told of as a network.
 bool is_device(const SourceFile& file) {
-  Diagnostics unheard;
-  const std::optional<JsonValue> root = parse_json(file, unheard);
+  const std::optional<JsonValue> root = json_in(file);
   return root && root->kind == JsonValue::Kind::object && find_member(*root, "dashpot_device") &&
          !find_member(*root, "dashpot");
 }
@@ -73,7 +72,8 @@ void check(const std::string& path, const Options& options, const fitting::ReadC
       is_table(path) ? files.open(path, diagnostics) : open_network(path, options, files, diagnostics);
   if (file == nullptr) return;
   if (is_table(path)) {
-    is_joint_motion(*file) ? void(parse_joint_motion(*file, diagnostics)) : void(parse_motion(*file, diagnostics));
+    motion_in(*file) == MotionOf::joints ? void(parse_joint_motion(*file, diagnostics))
+                                         : void(parse_motion(*file, diagnostics));
   } else if (is_device(*file)) {
     axes_of(*file) > 1 ? void(read_axes_device(*file, diagnostics)) : void(read_device(*file, diagnostics));
   } else if (has_two_axes(*file)) {

@@ -25,10 +25,10 @@ std::optional<AxesCompilation> recompiled(const SourceFile& file, const AxesCert
     device = read_axes_device(files.keep("device of the certificate", *certificate.device_text), diagnostics);
     if (!device) return no_certificate(), std::nullopt;
   }
-  Diagnostics unheard;  // its warnings were given when it was compiled
-  std::optional<AxesCompilation> compiled = compile_axes(network, certificate.choices, device, unheard);
+  Diagnostics of_network;  // its warnings were given when it was compiled
+  std::optional<AxesCompilation> compiled = compile_axes(network, certificate.choices, device, of_network);
   if (!compiled) {
-    compile_axes(network, certificate.choices, device, diagnostics);
+    diagnostics.take_errors(of_network);
     return no_certificate(), std::nullopt;
   }
   for (const Compilation& port : compiled->ports)
@@ -59,8 +59,7 @@ std::optional<std::string> verify_axes_texts(const SourceFile& certificate_file,
   const auto compiled = recompiled(certificate_file, *certificate, files, diagnostics);
   if (!compiled) return std::nullopt;
   const std::size_t count = verify_axes_constants(*certificate, *constants, *compiled, diagnostics);
-  Diagnostics unheard;
-  const auto written = emit_axes_cpp(*compiled, {}, unheard);
+  const auto written = emit_axes_cpp(*compiled, {}, diagnostics);
   if (written) compare_headers({written->front().text}, header, diagnostics);
   const std::optional<NeedAtPlaces> there = verify_axes_bounds(*certificate, *compiled, diagnostics);
   if (!diagnostics.has_errors()) {

@@ -24,12 +24,12 @@ bool is_of_many_points(const Network& network, const std::string& code) {
 // many.
 std::vector<std::string> emitted(const Compilation& compiled, bool of_many_points) {
   std::vector<std::string> texts;
-  Diagnostics unheard;
+  Diagnostics of_emission;  // there may be no header in constant time; then the other has to be it
   for (const bool constant_time : {false, true}) {
     EmissionOptions options;
     options.constant_time = constant_time;
     options.batch = of_many_points;
-    if (auto files = emit_cpp(compiled, options, unheard))
+    if (auto files = emit_cpp(compiled, options, of_emission))
       texts.push_back(std::move(files->at(of_many_points ? 1 : 0).text));
   }
   return texts;
@@ -54,7 +54,7 @@ class TextsVerification {
     port_ = !network_ ? std::nullopt
             : device_ ? PortDevice::of(*device_, *network_, diagnostics_)
                       : PortDevice::ideal();
-    if (!network_) check(network_file_, diagnostics_);
+    if (!network_) diagnostics_.take_errors(of_network);
     if (!port_ || diagnostics_.has_errors()) {
       diagnostics_.report<DiagnosticCode::no_certificate>({}, certificate_file_.path(),
                                                           "its network or device is not read");
@@ -127,10 +127,10 @@ class TextsVerification {
 
   bool recompile() {
     if (compiled_) return true;
-    Diagnostics unheard;
-    compiled_ = compile(network_file_, certificate_.as_asked(), device_, unheard);
+    Diagnostics of_network;  // its warnings were given when it was compiled
+    compiled_ = compile(network_file_, certificate_.as_asked(), device_, of_network);
     if (compiled_) return true;
-    compile(network_file_, certificate_.as_asked(), device_, diagnostics_);
+    diagnostics_.take_errors(of_network);
     diagnostics_.report<DiagnosticCode::no_certificate>({}, network_file_.path(), "its network does not compile");
     return false;
   }

@@ -279,9 +279,8 @@ class RecordingReader {
     if (has_gaps_) return place_of(lines_.path(), "", first_number_, "", diagnostics_);
     const std::size_t wanted = first_number_ + row;
     LineReader again(lines_.path(), ReadProgress());
-    Diagnostics unheard;
-    if (again.open(unheard))
-      while (const auto line = again.next(unheard))
+    if (again.open(diagnostics_))
+      while (const auto line = again.next(diagnostics_))
         if (again.number() == wanted) return place_of(lines_.path(), *line, wanted, *line, diagnostics_);
     return place_of(lines_.path(), "", wanted, "", diagnostics_);
   }

@@ -81,10 +81,7 @@ std::vector<std::string> estimator_names() {
 bool tells_of_rotation(const DeviceDecl& decl) {
   if (decl.arm_radius) return true;
   const auto turns = [](const ValueDecl& value) {
-    const NameScope no_names;
-    if (!is_stated(value, no_names)) return false;
-    Diagnostics unheard;
-    const std::optional<Quantity> quantity = read_stated(value, no_names, unheard);
+    const std::optional<Quantity> quantity = quantity_in(value);
     return quantity && quantity->dimension && quantity->dimension->radian != 0;
   };
   for (const SectionDecl& section : decl.sections)

@@ -384,4 +384,10 @@ std::optional<Quantity> read_stated(const ValueDecl& decl, const NameScope& scop
   return is_expression(decl, scope) ? read_expression(decl, scope, diagnostics) : read_quantity(decl, diagnostics);
 }
 
+std::optional<Quantity> quantity_in(const ValueDecl& decl) {
+  const NameScope no_names;
+  Diagnostics of_reader;
+  return is_stated(decl, no_names) ? read_stated(decl, no_names, of_reader) : std::nullopt;
+}
+
 }  // namespace dashpot::compiler

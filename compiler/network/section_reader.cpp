@@ -17,10 +17,8 @@
 namespace dashpot::compiler {
 
 std::optional<double> stated_in(const EntryDecl& entry, const Dimension& dimension) {
-  const NameScope no_names;
-  if (entry.is_list || entry.values.empty() || !is_stated(entry.values.front(), no_names)) return std::nullopt;
-  Diagnostics unheard;
-  const std::optional<Quantity> quantity = read_stated(entry.values.front(), no_names, unheard);
+  if (entry.is_list || entry.values.empty()) return std::nullopt;
+  const std::optional<Quantity> quantity = quantity_in(entry.values.front());
   return quantity && quantity->dimension == dimension ? std::optional(quantity->value) : std::nullopt;
 }
 

@@ -19,6 +19,12 @@ const SourceFile& Diagnostics::keep(SourceFile file) {
   return *kept_.back();
 }
 
+void Diagnostics::take_errors(const Diagnostics& of_trial) {
+  for (const Diagnostic& diagnostic : of_trial.list_)
+    if (diagnostic.severity == Severity::error) list_.push_back(diagnostic);
+  kept_.insert(kept_.end(), of_trial.kept_.begin(), of_trial.kept_.end());
+}
+
 std::size_t Diagnostics::error_count() const {
   return static_cast<std::size_t>(
       std::count_if(list_.begin(), list_.end(), [](const Diagnostic& d) { return d.severity == Severity::error; }));

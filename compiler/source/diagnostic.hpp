@@ -71,6 +71,9 @@ class Diagnostics {
 
   void forget() { list_.clear(); }  // what has been told
 
+  // The errors of what was tried, where it failed, and the files that they point into. Its warnings are left out.
+  void take_errors(const Diagnostics& of_trial);
+
   // Advice is what would help, found by compiling otherwise, often many times. It is looked for unless it is unwanted.
   void take_no_advice() { wants_advice_ = false; }
   bool wants_advice() const { return wants_advice_; }

@@ -187,4 +187,9 @@ std::optional<JsonValue> parse_json(const SourceFile& file, Diagnostics& diagnos
   return builder.take_root();
 }
 
+std::optional<JsonValue> json_in(const SourceFile& file) {
+  Diagnostics of_reader;
+  return parse_json(file, of_reader);
+}
+
 }  // namespace dashpot::compiler

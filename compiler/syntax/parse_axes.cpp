@@ -182,8 +182,7 @@ AxesDeviceDecl parse_device_keys(ObjectReader reader, const JsonValue& root, Dia
 }  // namespace
 
 std::size_t axes_of(const SourceFile& file) {
-  Diagnostics unheard;
-  const std::optional<JsonValue> root = parse_json(file, unheard);
+  const std::optional<JsonValue> root = json_in(file);
   const JsonMember* axes = root && root->kind == Kind::object ? find_member(*root, "axes") : nullptr;
   const bool is_several = axes != nullptr && axes->value.kind == Kind::number && number_in(axes->value) == most_axes;
   return is_several ? most_axes : 1;

@@ -81,8 +81,7 @@ class Comparison {
 }  // namespace
 
 void compare_certificates(const SourceFile& stated, const SourceFile& again, Diagnostics& diagnostics) {
-  Diagnostics unheard;  // both have been read before, or written just now
-  const std::optional<JsonValue> first = parse_json(stated, unheard), second = parse_json(again, unheard);
+  const std::optional<JsonValue> first = json_in(stated), second = json_in(again);
   if (first && second) Comparison(diagnostics).agree("", *first, *second);
 }
 

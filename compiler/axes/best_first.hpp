@@ -7,8 +7,8 @@
 
 namespace dashpot::compiler::axes {
 
-// In: a bound of what is looked for over a part, and whether a bound is close enough to what has been attained. Out:
-// one of the whole, close enough or after that many parts.
+// In: a function that bounds the wanted value over a part, and whether a bound is close enough to what has been
+// attained. Out: a bound over the whole box, close enough or after `most_parts`.
 template <typename Measure, typename IsClose>
 double best_first(const Box& whole, int most_parts, const Measure& measured, const IsClose& is_close) {
   struct Part {

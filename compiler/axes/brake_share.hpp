@@ -8,9 +8,9 @@
 
 namespace dashpot::compiler::axes {
 
-// Of what a damping turns into heat, the brakes' part: in a motion of the tip that is alike in all directions, tr(C
-// D)/tr(C B*), and in the direction where it is smallest. Above 1 where brakes that the motors hold back turn more into
-// heat than is wanted.
+// The brakes' share of the heat that a wanted damping makes: in a motion of the tip that is alike in all directions,
+// tr(C D)/tr(C B*), and in the direction where it is smallest. Above 1 if the brakes make more heat than wanted and the
+// motors push against them.
 struct Share {
   double alike, worst_direction;
   bool delay_proof;

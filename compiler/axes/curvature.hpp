@@ -6,7 +6,7 @@
 
 namespace dashpot::compiler::axes {
 
-// Along joint j and k, with J_j the columns and E_i the elbows, of which joint i alone moves the one:
+// Along joint j and k, with J_j the columns of J and E_i the elbows, each of which joint i alone moves:
 //
 //     d_i·tip_jk = −(J_j − δ_ij E_i′)·(J_k − δ_ik E_i′) + δ_ij δ_ik d_i·E_i″,     E_i″ = −(proximal link i)
 template <typename S>

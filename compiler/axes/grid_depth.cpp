@@ -33,7 +33,7 @@ const BicubicCell& cell_at(const Grid& grid, std::size_t column, std::size_t row
   return grid.cell[row * grid.columns() + column];
 }
 
-// What of an interval lies in a place along an axis, from the knot that it is measured from.
+// The part of an interval that lies in a cell, or beyond the outer knots, along an axis, from the cell's corner.
 Interval within(const Grid& grid, std::size_t axis, std::size_t place, const Interval& x) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double from = corner(grid, axis, place), slack = 1e-9 * grid.spacing[axis];

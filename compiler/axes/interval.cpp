@@ -10,7 +10,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int library_steps = 4;
 
-// Of values that the C library has computed.
+// An enclosure of values that the C library has computed.
 Interval of_library(double low, double high, double least, double most) {
   for (int i = 0; i < library_steps; ++i) low = below(low), high = above(high);
   return {std::max(low, least), std::min(high, most)};

@@ -22,8 +22,8 @@ struct Interval {
   bool holds(double value) const { return low <= value && value <= high; }
 };
 
-// A step below and above: 2⁻⁵² |x| is one or two units in the last place of x, and the smallest normal number does for
-// those that have fewer places. Of an end beyond all numbers the largest is below.
+// A step below and above: 2⁻⁵² |x| is one or two units in the last place of x, and the smallest normal number is enough
+// for subnormal ones. The step below infinity begins at the largest number.
 inline double below(double x) {
   constexpr double largest = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::min();
   const double finite = std::min(x, largest);
@@ -35,7 +35,7 @@ inline bool is_zero(const Interval& a) { return a.low == 0 && a.high == 0; }
 
 inline Interval operator-(const Interval& a) { return {-a.high, -a.low}; }
 
-// What is added to 0 stays what it is.
+// A sum with 0 is exact.
 inline Interval operator+(const Interval& a, const Interval& b) {
   const auto exact = [](double x, double y) { return x == 0 || y == 0; };
   const double low = a.low + b.low, high = a.high + b.high;
@@ -43,7 +43,7 @@ inline Interval operator+(const Interval& a, const Interval& b) {
 }
 inline Interval operator-(const Interval& a, const Interval& b) { return a + -b; }
 
-// Where an end is infinite: times 0 it is 0.
+// For operands with an infinite end: infinity times 0 is 0.
 Interval product_beyond_numbers(const Interval& a, const Interval& b);
 
 // By a factor that is nowhere negative: no sign changes, and so each end is one product.

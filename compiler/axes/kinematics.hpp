@@ -7,9 +7,9 @@
 //                  elbows outward, the tip on the side of positive y. With base 0 the motors are coaxial
 //   cartesian      q is the tip's position itself [m]
 //
-// One text for every scalar (pair.hpp): doubles, enclosures over boxes of q, and the operations of a law. No value
-// decides what is computed. pose() divides for the five-bar alone: by the squared distance of the elbows and by the
-// height of the tip above them, both positive where arm and workspace have been found regular (workspace.hpp).
+// One source for every scalar (pair.hpp): doubles, enclosures over boxes of q, and the operations of a law. No branch
+// depends on a value. pose() divides for the five-bar alone: by the squared distance of the elbows and by the height of
+// the tip above them, both positive where arm and workspace have been found regular (workspace.hpp).
 #pragma once
 
 #include "axes/pair.hpp"

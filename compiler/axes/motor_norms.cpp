@@ -11,7 +11,7 @@ namespace {
 
 Largest larger(const Largest& one, const Largest& other) { return one.x < other.x || other.x != other.x ? other : one; }
 
-// `matrices_at` takes a motion of the tip to matrices of which the largest counts; +λ and −λ of each.
+// `matrices_at` gives the matrices at a motion of the tip; the largest |λ| of any of them counts.
 template <typename Matrices>
 Size largest_size(const Arm& arm, const Box& workspace, const Pair<double>& weight, int parts,
                   const Matrices& matrices_at) {
@@ -22,7 +22,7 @@ Size largest_size(const Arm& arm, const Box& workspace, const Pair<double>& weig
     Largest most{0};
     for (const Symmetric<Sloped>& one : matrices_at(tip_motion(arm, *joints, variables(tip))))
       most = larger(larger(most, weighed(one, weight)), weighed(Sloped(-1) * one, weight));
-    return most.x < infinity ? most : Largest{infinity};  // where it has no numbers, too
+    return most.x < infinity ? most : Largest{infinity};  // also for a NaN
   };
   const auto measured = [&](const Box& tip) {
     const Largest most = size_over(tip);
@@ -36,7 +36,7 @@ Size largest_size(const Arm& arm, const Box& workspace, const Pair<double>& weig
   return {most, attained};
 }
 
-// Every sum of which some ports are left out.
+// The sums for all choices of ports that are off.
 std::vector<Symmetric<Sloped>> wanted_by(const std::vector<PortDamping>& ports, const ViscousField& field,
                                          const Pose<Sloped>& pose) {
   std::vector<Symmetric<Sloped>> sums{at_joints(pose, symmetric_part(field_at(field, pose.tip)))};

@@ -1,4 +1,4 @@
-// How large over a workspace is what the motors make, against W = diag(weight): sizes ‖N‖ = max |λ| of N v = λ W v of
+// How large the motors' part is over a workspace, relative to W = diag(weight): sizes ‖N‖ = max |λ| of N v = λ W v of
 // matrices over the joints, by enclosures with outward rounding. For what a certificate bounds without asking where the
 // joints were before (theory, section 12).
 #pragma once

@@ -46,8 +46,8 @@ Circle ball(const Pair<double>& centre, double radius);
 Circle cavity(const Pair<double>& centre, double radius);
 Band line(const Pair<double>& through, const Pair<double>& direction, double radius);
 
-// A tip position in a workspace at which the map has a peak, so that its tangent turns at once but for δ: a centre, or
-// where an axis crosses. Nothing where it has none there.
+// A tip position in a workspace at which the map has a peak, so that its gradient reverses within about δ: a centre, or
+// where an axis crosses. Empty if there is none.
 std::optional<Pair<double>> peak_in(const PortMap& map, const Box& workspace);
 
 template <typename S>

@@ -109,7 +109,7 @@ inline Sloped cos(const Sloped& a) {
   return chained([](const Interval& x) { return cos(x); }, -sin(a.value), a);
 }
 
-// Where it is open which of both it is, the derivative is that of either.
+// If either may be the larger one, the slopes enclose those of both.
 inline Sloped max(const Sloped& a, const Sloped& b) {
   if (a.value.low >= b.value.high) return a;
   if (b.value.low >= a.value.high) return b;

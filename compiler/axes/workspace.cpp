@@ -31,7 +31,7 @@ bool is_regular(const Arm& arm, const Box& tip) {
   return size.low > 0 && std::isfinite(size.high);
 }
 
-// By whole turns to the nearest of a joint position.
+// Moved by whole turns as near to a joint position as possible.
 Box without_jump(const Arm& arm, Box joints, const Pair<double>& near) {
   if (arm.kind == Kinematics::cartesian) return joints;
   for (const std::size_t j : {0u, 1u}) {

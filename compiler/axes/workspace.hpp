@@ -1,4 +1,4 @@
-// What of the plane a device is used in, and its joints there.
+// The part of the plane in which a device is used, and its joints there.
 #pragma once
 
 #include <optional>

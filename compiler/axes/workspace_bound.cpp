@@ -33,8 +33,8 @@ struct ForceForm {
   }
 };
 
-// Both ends of M. Where nothing clamps and no surface lies in the box they go with the depth; else they are whatever
-// they can be in the box. What is needed is convex in M, so that the ends are enough.
+// Both ends of M. If nothing clamps and no surface lies in the box, they are affine in the depth, else constants that
+// bound M over the box. What is needed is convex in M, so that the ends are enough.
 Pair<ForceForm> force_ends(const PortLoad& load, const Interval& depth, const Interval& range) {
   const Interval force = motor_force(load, depth, range);
   const double stiffness = load.grounded + load.relaxing;
@@ -118,14 +118,14 @@ std::optional<Symmetric<Sloped>> absolute(const Symmetric<Sloped>& h, const Pair
   return alpha * h + beta * Symmetric<Sloped>{first, Sloped(0), second};
 }
 
-// Wherever in the reach, apart from where in it other terms are.
+// The same for any place in the reach, whichever place there other terms are taken at.
 Sloped anywhere_reached(const Sloped& a) {
   const double most = (abs(a.slope[2]) + abs(a.slope[3])).high;
   return {a.value, a.middle + Interval(-most, most), {a.slope[0], a.slope[1]}};
 }
 
-// Of products of displacements at different samples, each with an N of its own: what is no less than `times` |N|, with
-// ‖N‖ W for |N| and, where it is known, with that.
+// Upper bounds of `times` |N|, for products of displacements at different samples, each with an N of its own: by ‖N‖ W,
+// and by |N| itself where it is known.
 std::vector<Symmetric<Sloped>> latenesses_of(double times, const Symmetric<Sloped>& n, const Pair<double>& weight) {
   if (times == 0) return {{Sloped(0), Sloped(0), Sloped(0)}};
   const double late = times * size_of(n, weight) * (1 + 1e-12);
@@ -137,7 +137,7 @@ std::vector<Symmetric<Sloped>> latenesses_of(double times, const Symmetric<Slope
   return all;
 }
 
-// What a port asks for beside a spring k0 that does k0 w whatever moves, or all of it.
+// What a port needs beside its spring k0, if the force of that is k0 w at all times; else all that it needs.
 PortLoad beside_field(const PortLoad& load) {
   PortLoad rest = load;
   if (load.unilateral || load.clamp < unlimited) return rest;
@@ -150,11 +150,11 @@ class PortNeed {
  public:
   PortNeed(const PortLoad& load, const Interval& range) : load_(load), rest_(beside_field(load)), range_(range) {}
 
-  // For both ends of M what is needed over joints as it stands, and the tightest of what is enough; with what is late
-  // beside the field.
+  // For both ends of M: what is needed over joints as it stands, and the tightest of several upper bounds; both include
+  // what delay adds beside `field`.
   struct Ends {
     std::vector<Symmetric<Sloped>> as_it_stands, tightest;
-    bool has_a_choice = false;                                 // where there is none, both are the same
+    bool has_a_choice = false;                                 // if not, both are the same
     Symmetric<Sloped> field{Sloped(0), Sloped(0), Sloped(0)};  // k0 (g gᵀ + w H)
   };
 
@@ -211,7 +211,7 @@ class PortNeed {
   Interval range_;
 };
 
-// Every sum of one of either.
+// Each of `sums` plus each of `ends`.
 std::vector<Symmetric<Sloped>> with_each(const std::vector<Symmetric<Sloped>>& sums,
                                          const std::vector<Symmetric<Sloped>>& ends) {
   if (ends.empty()) return sums;
@@ -242,7 +242,7 @@ class Search {
  private:
   bool is_close(double need, double tolerance) const { return need - attained_ <= tolerance * scale_; }
 
-  // What a part asks for is looked for where it is largest if entries go straight.
+  // The need is also evaluated at the place of a part where it would be largest if the entries were linear.
   template <typename ToRegion>
   double measured(const Box& box, const ToRegion& region_of) {
     const std::optional<Region> region = region_of(box);
@@ -256,7 +256,8 @@ class Search {
     return std::max(part.x, limit);
   }
 
-  // Of every sum of ends, as it stands or the tightest of each port: which of both is less is another in every part.
+  // Over all sums of ends, as they stand or the tightest of each port: which of the two is less differs from part to
+  // part.
   Largest need_over(const Region& region, double* scale) const {
     const Symmetric<Sloped> none{Sloped(0), Sloped(0), Sloped(0)};
     std::vector<Symmetric<Sloped>> stands, tightest;
@@ -285,7 +286,7 @@ class Search {
       const Symmetric<Sloped> wanted = Sloped(loop_.longest_period) * sum;
       if (scale != nullptr) *scale = std::max(*scale, weighed(wanted, weight_).x);
       const Largest need = weighed(wanted - given, weight_);
-      if (!(need.x <= most.x)) most = need.x < infinity ? need : Largest{infinity};  // where it has no numbers, too
+      if (!(need.x <= most.x)) most = need.x < infinity ? need : Largest{infinity};  // also for a NaN
     }
     return most;
   }
@@ -299,7 +300,7 @@ class Search {
   Pair<double> at_{0, 0};
 };
 
-// The largest of sign·w over a workspace, and no less.
+// An upper bound of sign·w over a workspace, to the tolerance.
 double most_of(const PortMap& map, const Box& workspace, double sign, double tolerance) {
   const auto most = [&](const Box& box) {
     const Interval depth = axes::depth(map, box).value;

@@ -53,8 +53,7 @@ struct NeededDamping {
 inline constexpr double bound_tolerance = 0.01;
 inline constexpr int most_boxes = 8000;
 
-// What a port's map takes over a workspace: no less and no more than this [m], to 1e-3 of what its first enclosure is
-// wide.
+// An enclosure of a port's map over a workspace [m], tight to 1e-3 of the width of its first enclosure.
 Interval range_of(const PortMap& map, const Box& workspace);
 
 // M over joints whose tip is in a box, w in [m] over the workspace.

@@ -151,7 +151,7 @@ class CurveNeed {
   }
 
  private:
-  // Of each stretch, that w′ changes within a hold [N·s/m].
+  // The cost of w′ changing within a hold, for each stretch [N·s/m].
   std::vector<double> costs_of_bends() const {
     const double hold = tool_.longest_hold(), reach = reach_of_hold(tool_);
     std::vector<double> all;
@@ -248,8 +248,8 @@ class CurveNeed {
   bool is_one_sided_;  // behind a contact
 };
 
-// The law sheds, since a motor that clips is not passive behind a map. Shed forces store less, and nothing that is late
-// is on its way.
+// The law sheds, since a motor that clips is not passive behind a map. Shedding needs no more damping, as reduced
+// forces store less; late loops are not covered.
 MotorLimits limits_behind_curve(const SampledLoop& tool, const Certificate& certificate) {
   MotorLimits limits;
   if (!tool.has_device || !(tool.max_force > 0 || tool.motor_slew > 0)) return limits;
@@ -277,7 +277,7 @@ std::string hindrance_of_coil(double damping, const MotionMap& map, const PortDe
   return follows ? "" : "the brake's coil does not follow the static curve at the largest speed";
 }
 
-// With what is told of the brake beside.
+// The whole bound: what lacks, and what the brake assures.
 PassivityBound lacking_beside(double lacking, double damping, const Network& network, const SampledLoop& tool) {
   if (!std::isfinite(lacking)) return not_proved("the amplifier lags, and the jitter is a sample or more");
   const MotionMap& map = *network.map;

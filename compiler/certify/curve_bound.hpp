@@ -50,14 +50,14 @@ struct CurveStretch {
 // All that the tool reaches of a map on a device.
 std::vector<CurveStretch> curve_stretches(const MotionMap& map, const SampledLoop& tool, double coil_lag);
 
-// What the brake is told is b w′², b being `damping`: the bound of what such a motor needs at the tool, the slowest
-// place for b being counted as if it were everywhere. `behind` is the loop behind the map.
+// The bound of what such a motor needs at the tool, with a brake that is told b w′², b being `damping`: what lacks at
+// the worst place, plus what the brake assures where the map is flattest. `behind` is the loop behind the map.
 PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Network& network,
                                   const std::optional<SlipMotor>& slips, const PortDevice& at_tool,
                                   const std::vector<CurveStretch>& stretches, SampledLoop behind);
 
-// By how much that is more than there is, as a brake behind the map sees it where the map is steepest; below 0 where
-// there is more [N·s/m].
+// By how much the bound exceeds the damping that is there, over the largest w′², as a brake behind the map sees it at
+// the steepest place; negative if there is more [N·s/m].
 double lacking_behind_curve(const PassivityBound& bound, double damping, const MotionMap& map, const SampledLoop& tool);
 
 // In: a law of w before its map, what its motor makes behind slips, the device as the law sees it behind the map.

@@ -556,8 +556,8 @@ std::optional<checker::LoopForm> loop_form_of(const checker::Program& program, c
   }
 }
 
-// As near above the supremum as one of the steps allows, and not above `most`. Where one allows it, those beyond are
-// taken to.
+// The proof with the least of these slacks above the supremum for which there is one, and not above `most`. By
+// bisection: if one slack succeeds, all larger ones are taken to.
 std::optional<StorageProof> punctual_proof(const StorageSearch& search, double most) {
   std::vector<double> slacks = {4e-9, 9e-9, 4e-8, 4e-7, 4e-6, 4e-5, 4e-4, 4e-3, 4e-2};
   const bool takes_long = search.states() > most_states_in_digits;

@@ -24,7 +24,7 @@ Form substituted(const Form& form, const Forms& values) {
   return result;
 }
 Rational of(const Form& form, const std::string& name) { return form.count(name) ? form.at(name) : Rational(0); }
-// What a header is made of, once it reads as below.
+// The forms of a header's statements, once it has been normalised by `readings`.
 const std::regex declaration(
     R"((?:scalar|(static constexpr )(?:scalar|unsigned(?= loop_delay = \d+;))) (\w+)(?:\[(\d+)\])? = \{?)");
 const std::regex assignment(R"((const (?:scalar|vector) )?(\w+(?:\[\d+\])?) = |return \{damping, )");
@@ -32,7 +32,7 @@ const std::regex rolled(R"(for \(int i = 0; i < (\d+); i \+= (\d+)\) )"
                         R"(for \(int j = i; j < i \+ \2; j \+= vector::width\) \{ ([^{}]*)\} )");
 const std::regex word(R"([A-Za-z_]\w*(\[\d+\])?)");
 const std::regex number(R"(-?(?:0|[1-9]\d*)(?:(\.\d*(?:e[-+]?\d+)?|e[-+]?\d+)(f?))?)");
-// What computes nothing, nothing of a sample, or nothing while samples arrive and no state is small.
+// Text that computes nothing, nothing in a sample, or nothing as long as samples are finite and no state is small.
 const std::regex frame(
     R"( ?#pragma once (?:#include <dashpot/\w+\.hpp> )+namespace dashpot::generated \{ class \w+ \{ public: |private: |)"
     R"(using scalar = (?:double|float); |static constexpr motion port_motion = motion::\w+; |struct certified_for \{ )"
@@ -46,8 +46,8 @@ const std::regex frame(
     R"(\(&states\)\[size\]\) \{ for \(int i = 0; i < size; \+\+i\) states\[i\] = 0; \} |)"
     R"(for \(int j = 0, first = (\w+_)turn_; j < (\d+); j \+= vector::width\) vector::put\(\1, first \+ j, )"
     R"(\(vector::at\(\1, first \+ j\)\)\); \1turn_ \+= \2; \1turn_ = \1turn_ < \d+ \? \1turn_ : 0; )");
-// How a header reads: without remarks, with one space between words, and with the expressions that are left while the
-// motor is within its limit and nothing is flushed to zero.
+// How a header is normalised: comments go, blanks become one space, and clamps and flushes become the expressions that
+// are left while the motor is within its limit and nothing is flushed to zero.
 const std::pair<const char*, const char*> readings[] = {
     {R"#("[^"\\\n]*"|//[^\n]*|\bDASHPOT_UNROLL\b| noexcept|alignas\(\d+\)|dashpot::(?!generated))#", ""},
     {R"(\s+)", " "},
@@ -91,7 +91,7 @@ struct Header : Program {
       for (int j = 0, step = std::stoi(found_[2]); j % step != 0 || j < std::stoi(found_[1]); ++j)
         all += std::regex_replace(found_[3].str(), std::regex(R"(\[j\])"), "[" + std::to_string(j) + "]");
       const char* const after = std::exchange(left_, all.c_str());
-      const Forms outside = others_;  // where names that the loop declares mean what they meant
+      const Forms outside = others_;  // names that the loop declares end with it
       while (*left_) read_part();
       others_ = outside, left_ = after;
     } else if (take(declaration)) {  // of a constant, or of a state, which begins at zero
@@ -210,7 +210,7 @@ Integer whole(const Rational& value, unsigned digits) {  // value · 2^digits, r
 }
 Rational below(const Rational& value, unsigned digits = 90) { return {whole(value, digits), Integer(1) << digits}; }
 Rational above(const Rational& value, unsigned digits = 90) { return -below(-value, digits); }
-// Not above and not below e^{−time/lag}: (1 − x/n)ⁿ and (1 + x/n)⁻ⁿ, of which the two differ by x²/n of themselves.
+// A lower and an upper bound of e^{−x}, x = time/lag: (1 − x/n)ⁿ and (1 + x/n)⁻ⁿ, which differ by a share of x²/n.
 std::pair<Rational, Rational> enclosed_decay(const Rational& time, const Rational& lag) {
   if (lag == 0) return {0, 0};
   const Rational part = time / lag / (Integer(1) << 110);
@@ -218,8 +218,8 @@ std::pair<Rational, Rational> enclosed_decay(const Rational& time, const Rationa
   for (int squarings = 0; squarings < 110; ++squarings) low = low * low >> 220, high = (high * high >> 220) + 1;
   return {below({low, Integer(1) << 220}), above({high, Integer(1) << 220})};
 }
-// The inequality's matrix for one hold, over the states, w, late and ρ, on and below the diagonal: whole, because
-// scaled by 2^digits for each of three factors, but for what the damping turns into heat, which is rounded down.
+// The inequality's matrix for one hold, over the states, w, late and ρ, on and below the diagonal. Each of its three
+// factors is scaled by 2^digits, so that entries are whole numbers; only the damping's heat is rounded, downwards.
 Matrix matrix_of(LoopForm loop, const Matrix& P, unsigned digits, const Rational& damping, const Hold& hold) {
   const std::size_t n = P.size(), lags = hold.spread != 0 && !loop.next.at("lacking").empty();  // else it is none
   const std::size_t known = n + 1 + (hold.after != 0);
@@ -253,7 +253,7 @@ Matrix matrix_of(LoopForm loop, const Matrix& P, unsigned digits, const Rational
 bool is_nonnegative(Matrix M, unsigned dropped) {
   const std::size_t n = M.size();
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n && M[i][i] <= 0; ++j)  // then all beside it has to be zero, as it is
+    for (std::size_t j = 0; j < n && M[i][i] <= 0; ++j)  // then the rest of its row and column has to be zero
       if (M[std::max(i, j)][std::min(i, j)] != 0) return false;
     if (M[i][i] == 0) M[i][i] = Integer(1) << (dropped + 2 * n);
     for (std::size_t j = 0; j <= i; ++j) M[i][j] >>= dropped;
@@ -271,7 +271,7 @@ bool is_nonnegative(Matrix M, unsigned dropped) {
 Rational hold_stiffness(const LoopForm& loop, const Device& device) {
   const std::string drive = displacement(device.delay_samples);
   Rational sum = loop.stiffness / 2, left = of(loop.force, drive);
-  if (device.amplifier_lag != 0 || loop.stiffness < 0 || holds(device).empty())  // throws at times that contradict
+  if (device.amplifier_lag != 0 || loop.stiffness < 0 || holds(device).empty())  // holds() throws if times contradict
     throw Unknown("the amplifier lags, or the spring pushes");
   for (std::size_t i = device.delay_samples + 1 + (device.write_latest > 0); i < loop.states.size(); ++i) {
     const Form& next = loop.next.at(loop.states[i]);
@@ -300,7 +300,7 @@ LoopForm loop_form(Program program, const Device& device) {
   if (device.write_latest > 0) drive = drive + Form{{"moved", 1}, {"late", -1}};
   for (unsigned age = 0; age <= device.delay_samples; ++age)
     position = age > 0 ? position - drive : position, drive = add(loop, displacement(age), drive);
-  Form sum, all;  // of the states but for a last position, and of what they become
+  Form sum, all;  // of all states except a last position, and of their next values
   for (const auto& [state, form] : next)
     if (!state.empty() && form != Form{{"position", 1}}) sum[state] = 1, all = std::move(all) + form;
   Forms values = {{"position", position}};
@@ -334,7 +334,7 @@ std::vector<Hold> holds(const Device& device) {
   for (int i = 0; i < parts; ++i) {
     const Rational step = (period + jitter - first) / parts, shortest = first + step * i, longest = shortest + step;
     const Rational before = longest - soonest, part = lag / before;
-    const auto [low, high] = enclosed_decay(before, lag);  // of what lacked, to the next sample; and from there on
+    const auto [low, high] = enclosed_decay(before, lag);  // of what lacks until the next sample; below, after it
     const auto [least, most] = enclosed_decay(latest, lag);
     const Rational until = enclosed_decay(shortest - latest, lag).second, on = until * (1 - least) * then;
     const Rational spread = before * (1 - low) * part * ((1 + high) / 2 - (1 - high) * part) +
@@ -355,7 +355,7 @@ bool proves(const Program& program, Device device, const Storage& storage, const
     LoopForm loop = loop_form(program, device);
     loop.next[""] = loop.force;
     const std::size_t n = loop.states.size();
-    unsigned digits = kept;  // of the scale, in which all is whole; those of P are cut off, which makes another P of it
+    unsigned digits = kept;  // of the scale in which all is whole; P is truncated to it, and that P is tested
     for (const auto& [state, form] : loop.next)
       for (const auto& [name, value] : form) digits = std::max(digits, msb(denominator(value)));
     Matrix P(n, std::vector<Integer>(n));
@@ -408,7 +408,7 @@ std::pair<int, std::string> verdict(const std::string& header, const std::string
                              << (is_punctual ? "one length, " : "any lengths up to ") << double(longest) << " s\n"
                              << (is_certified ? "proved: brake and device surely give as much\n"
                                               : "not proved: that as much damping is there\n");
-  if (spare * 1000000 > needed)  // so much that it pays for rounding: e u̇ ≤ e²/4x + x u̇², x being left over
+  if (spare * 1000000 > needed)  // x is spare and pays for an error e of the force: e u̇ ≤ e²/4x + x u̇²
     words << "proved: " << double(spare) << " more is there; rounding that puts the force off by e [N, N m] brings in "
           << "at most " << double(Rational(1 / (4 * spare))) << " e^2 watts\n";
   words

@@ -14,16 +14,16 @@ using Rational = boost::multiprecision::cpp_rational;
 using Form = std::map<std::string, Rational>;  // a sum: coefficients by quantity, the constant under the empty name
 using Forms = std::map<std::string, Form>;
 using Matrix = std::vector<std::vector<Integer>>;
-using Storage = std::vector<std::vector<double>>;  // P, by rows up to the diagonal, behind which roundings may stand
+using Storage = std::vector<std::vector<double>>;  // P's rows up to the diagonal, which roundings may follow
 using Unknown = std::runtime_error;
-// What a header computes in a sample, in exact arithmetic, while samples arrive and the motor is within its limit.
+// What a header computes in a sample, in exact arithmetic, for finite samples and a motor within its limit.
 struct Program {
   std::map<std::string, Rational> constants;  // and the states at rest
   std::vector<std::string> states;            // in the order of the text
   Forms next;                                 // what they become, of the states, `position` and `velocity`
   Form force;
 };
-// What the certificate tells of the loop, in SI.
+// What the certificate states about the loop, in SI.
 struct Device {
   double sample_period, jitter, write_earliest, write_latest, amplifier_lag, cutoff, acceleration, joint_encoder_step;
   unsigned delay_samples, window, order;
@@ -32,9 +32,9 @@ struct Device {
   std::vector<double> estimator_coefficients;
   unsigned chosen = 1;  // of an adaptive window's lengths, the one that the sample takes
 };
-// The loop as one linear recursion: w is the tool's displacement while a command acts, u the position when it begins
-// to, since its sample by `moved`; the next one by `late`, a part of w. The motor holds stiffness·u + force. States:
-// the last displacements q0, q1 …, those of estimator and law, and what a lagging force lacks, without its decay.
+// One linear recursion for the loop: w is the tool's way while a command acts, u its position when that begins, `moved`
+// its way from the sample until then, `late` (a part of w) that of the next one. The motor holds stiffness·u + force.
+// States: the last displacements q0, q1 …, those of estimator and law, and what a lagging force lacks, before decay.
 struct LoopForm {
   std::vector<std::string> states;
   Forms next;          // of the states, w and late; what an estimate divides by T itself, pace0, before that
@@ -42,11 +42,11 @@ struct LoopForm {
   Rational stiffness;  // k0 [N/m]
 };
 LoopForm loop_form(Program program, const Device& device);
-// The holds from the shortest to the longest in parts, of each with a lag the four corners; where the estimate divides
-// by the time between two samples, both ends of each.
+// The range from the shortest to the longest hold in parts. With a lag, each part stands for all corners of its decay
+// and shares; if the estimate divides by the measured interval, also for both ends of the rate.
 struct Hold {
-  Rational before, after, decay;       // of a command, until the next sample and then, at most [s]; q
-  Rational share, spread, tilt, rate;  // p until that sample; κT, at most; what p is more after it; the estimate's 1/T
+  Rational before, after, decay;       // longest time that a command acts until the next sample and after it [s]; q
+  Rational share, spread, tilt, rate;  // p until that sample; κT, at most; p's increase after it; the estimate's 1/T
 };
 std::vector<Hold> holds(const Device& device);
 // Whether P proves that `damping` b [N·s/m] is enough for any motion and all holds T up to the longest. With

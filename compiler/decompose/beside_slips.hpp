@@ -10,8 +10,8 @@
 
 namespace dashpot::compiler {
 
-// Of slips that would then be in line the weakest alone loses its damper: the others would never give way. Empty where
-// none lies beside a slip.
+// If damped slips are in series, the weakest alone loses its damper: without theirs the others would never slide. Empty
+// if no damper lies beside a slip.
 std::optional<NormalTree> without_dampers_beside_slips(NormalTree component);
 
 // The same of a part that is no tree, by its elements: those that join the ends of a slip.

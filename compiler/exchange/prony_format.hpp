@@ -24,8 +24,8 @@ struct PronyQuestion {
 };
 
 // What a file says: of relative series the stiffness is 1, of FEBio's with <g0> it is that share.
-// Refuses, with the place: a file without a series, with several and no --material, numbers that are none, times of
-// zero or less, a generic table that does not say what its weights are shares of.
+// Refuses, with the place: a file without a series, with several and no --material, values that are no numbers, times
+// of zero or less, a generic table that does not say what its weights are shares of.
 std::optional<PronySeries> read_prony(const SourceFile& file, const PronyQuestion& question, Diagnostics& diagnostics);
 
 // What a file says of itself in comments, as export writes them.

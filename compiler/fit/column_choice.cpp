@@ -220,8 +220,8 @@ class Chooser {
     return kind_by_units();
   }
 
-  // Of columns that no name tells: a frequency without a time is a spectrum's, a modulus beside the time a
-  // relaxation's.
+  // By units, for columns whose names do not tell: a frequency without a time is a spectrum's, a modulus beside the
+  // time a relaxation's.
   RecordingKind kind_by_units() const {
     const bool is_named = (is_there(Role::frequency) && !is_there(Role::force)) || is_there(Role::omega);  // "f"
     const bool has_frequency = is_named || has_unit(Role::frequency);
@@ -401,7 +401,7 @@ class Chooser {
     }
   }
 
-  // What a column would be asked for as: ROLE=NAME[:UNIT].
+  // A part of --columns that would choose a column: ROLE=NAME[:UNIT].
   struct Offer {
     Role role;
     std::size_t index;
@@ -411,11 +411,11 @@ class Chooser {
 
   struct Answer {
     std::string command;
-    const char* condition;  // what has to be right of it
+    const char* condition;  // what must be true for it to be right
   };
 
-  // The command line that would do, with what is known and, elsewhere, the likeliest: columns that are there, and none
-  // in a unit that the header contradicts. Empty where no column is left for a role.
+  // A command line that would do, of what is known and else of what is likeliest: columns that are there, none in a
+  // unit that the header contradicts. Empty if no column is left for a role.
   std::optional<Answer> answer() const {
     const std::vector<std::vector<Role>> groups = needed();
     std::vector<std::optional<Offer>> offers(groups.size());
@@ -511,7 +511,7 @@ class Chooser {
   }
 
   void ask_for_columns() {
-    bool is_misfit = false;  // every unit that is wrong is told
+    bool is_misfit = false;  // all wrong units are reported
     for (const std::vector<Role>& group : needed())
       if (std::none_of(group.begin(), group.end(), [&](Role role) { return has(role); }) && report_misfit(group))
         is_misfit = true;

@@ -48,8 +48,8 @@ struct ColumnUnit {
 std::optional<ColumnUnit> unit_of_column(const TableColumn& column, Role role);
 std::optional<ColumnUnit> unit_named(std::string_view unit);
 
-// Columns whose name says that they are this, and whose unit does not say otherwise; alone that which is called by the
-// role's own word, where there is one.
+// Columns whose name says that they are this, and whose unit does not say otherwise. If one of them has the role's own
+// word for its name, that one alone.
 std::vector<std::size_t> columns_for(const std::vector<TableColumn>& columns, Role role);
 
 // A column's title in two, "position [in]", whether the unit is known or not.
@@ -59,7 +59,7 @@ struct TitleParts {
 };
 TitleParts parts_of(const TableColumn& column);
 
-// The first column that is called like this and whose unit is none of it: "position [in]", "velocity [m]".
+// The first column whose name is one of this role and whose unit is not: "position [in]", "velocity [m]".
 struct MisfitUnit {
   std::size_t index;
   std::string unit;

@@ -5,7 +5,7 @@
 
 namespace dashpot::compiler::fitting {
 
-// Columns A and target b: ‖A x − b‖² is what it was, for every x.
+// Columns A and target b: ‖A x − b‖² is the same as before, for every x.
 struct Compressed {
   Eigen::MatrixXd columns;
   Eigen::VectorXd target;

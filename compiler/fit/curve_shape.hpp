@@ -11,8 +11,8 @@ namespace dashpot::compiler::fitting {
 //
 //     w = sgn(u) √(2 ∫f du),   w′ = f/w,
 //
-// f being the force over the stiffness of the network that the curve is made of [m]. A factor of the curve would be one
-// of the network's weights, so it is fixed: w is the reach where u is.
+// where f is the force over the stiffness of the network that the curve is made from [m]. A factor of the curve could
+// as well be in the network's weights, so it is fixed: at u = reach, w is the reach.
 //
 // Its parameters have no bounds of physics: the power itself, the logarithm of the rate times the reach, and of a table
 // that is straight over equal stretches the logarithms of each slope over the last.
@@ -69,7 +69,7 @@ struct ShapeRange {
 };
 ShapeRange range_of(CurveShape::Kind kind);
 
-// Of which a search takes the best to begin from: from nearly straight to as steep as tissue is.
+// Candidates for the start of a search, which takes the best: from nearly straight to as steep as tissue is.
 std::vector<CurveShape> some_powers(double reach);
 std::vector<CurveShape> some_exponentials(double reach);
 

@@ -122,7 +122,7 @@ class Findings {
       push = std::max(push, std::abs(file.answer[row] - file.answer[first]));
     }
     const auto [least, most] = std::minmax_element(recording.position.begin(), recording.position.end());
-    // A curve takes up most of the approach, and then not all that comes behind it.
+    // If a curve fits badly, it may have absorbed most of the approach: then less of a push counts.
     const double bent = fit_.model.curve && file.rms > 3 * *fit_.noise ? 1 : 2;
     if (push > bent * unmoved && high - low > least_return * (*most - *least) && force_delay(recording) == 0)
       add(Finding::Kind::untouched, file.name, {recording.origin + low, recording.origin + high, push});
@@ -138,7 +138,8 @@ class Findings {
       add(Finding::Kind::floor_above_noise, "", {fit_.floor_rms, *fit_.noise});
   }
 
-  // Beside the force itself. What is smaller comes of the digits of the file, or of how a motion between rows is taken.
+  // Compared with the force itself. Smaller residuals come from the digits of the file, or from the interpolation
+  // between rows.
   bool is_felt(double left) const {
     return left > 1e-3 * problem_.target().norm() / std::sqrt(problem_.weighed_rows());
   }
@@ -216,7 +217,7 @@ class Findings {
     if (uncertainty_.condition() > 1e3) add(Finding::Kind::ill_conditioned, "", {uncertainty_.condition()});
   }
 
-  // A relaxation time that the other files put elsewhere by more than half.
+  // Relaxation times that change by more than half when one of the files is left out.
   void look_at_left_out() {
     for (std::size_t j = 0; j < fit_.model.terms.size(); ++j) {
       if (fit_.model.terms[j].kind != TermKind::maxwell) continue;

@@ -55,8 +55,8 @@ class Fitter {
 
   std::optional<Fit> run(const std::vector<Recording>& held_out) {
     search();
-    // Which rows tell of the tissue depends on the network, and the network on these rows: by turns. What was found
-    // with other rows is no start for the structure, so that is looked for again.
+    // Which rows are in contact depends on the network, and the network on these rows: both are found in turns. A
+    // structure that was found with other rows is no start, so the search for it begins anew.
     if (follow_surface(fit_.model)) {
       refine_with_surface();
       search_behind_surface();
@@ -83,7 +83,7 @@ class Fitter {
     if (progress_) progress_(what);
   }
 
-  // Rows enough to find a structure and its intervals by: neighbours say the same.
+  // Enough rows to find a structure and its intervals by: neighbouring rows hold the same information.
   const Problem& searched() const { return thinned_ ? *thinned_ : whole_; }
 
   bool gains_are_free() const { return fit_.choices.reduction.gains_are_free; }
@@ -120,8 +120,8 @@ class Fitter {
     fit_.model = tidied(std::move(fit_.model));
   }
 
-  // Sizes, intervals and criterion are told of rows that the chosen network has put to the test: as long as refining
-  // still moves the surface, it is searched again.
+  // Sizes, intervals and criterion have to be those of the rows that the chosen network leaves in contact: as long as
+  // following the surface still lowers the residual, the search is repeated.
   void search_behind_surface() {
     constexpr int searches = 6;
     constexpr double settled = 0.01;  // of what is left
@@ -165,8 +165,8 @@ class Fitter {
     const std::vector<Term> chosen = branches_of(fit_.model);
     known.insert(known.end(), chosen.begin(), chosen.end());
     fit_.floor = linear_floor(searched(), beside, gains_are_free(), 8, known);
-    // By weights of fewer rows: the chosen network, refined on all of them, may leave less. And in rounding, which is
-    // where least squares over many columns ends, so may any network on the way.
+    // The floor's weights may be of fewer rows: the chosen network, refined on all rows, may leave less. And by
+    // rounding, which limits least squares over many columns, so may any network on the path.
     if (thinned_) fit_.floor.model.residual_sum = residual(whole_, fit_.floor.model).squaredNorm();
     else
       for (const PathEntry& entry : fit_.path) lower_floor_to(entry.model);
@@ -360,7 +360,7 @@ class Fitter {
   bool size_was_met_ = true;
 };
 
-// The rows before the force has come back to nothing: behind them the tool may have left the tissue.
+// The rows before the force has first come back to nearly zero: after them the tool may have left the tissue.
 Recording until_free(Recording recording) {
   constexpr double little = 0.01, much = 0.5;  // of the largest force
   double largest = 0;
@@ -393,8 +393,8 @@ class SurfaceSearch {
     double at, criterion;
   };
 
-  // Over the whole way a scan finds the valley, of curves as they are at first. With curves that follow the surface it
-  // may lie some steps further on; then golden sections find its bottom.
+  // A scan of the whole way, with curves as they are at first, finds the valley. With refined curves it may lie some
+  // steps further on; golden sections then find its bottom.
   Found run() const {
     constexpr int steps = 40;
     const double width = 0.9 * (furthest_ - nearest_) / steps;

@@ -43,7 +43,7 @@ struct FileScore {
   double largest_position = 0;  // where [m]; of a motion
   double lag_one = 0;           // correlation of neighbours in what is left
   double effective_samples = 0;
-  double best_gain = 1;                // that would leave least of this file alone
+  double best_gain = 1;                // the gain that fits this file best by itself
   double offset = 0;                   // that was fitted, in the recording's quantity
   double gain = 1;                     // that was fitted
   std::optional<double> left_out_rms;  // with the network fitted to the other files

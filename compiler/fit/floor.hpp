@@ -35,8 +35,8 @@ struct Floor {
   double largest_cosine = 0;
   bool is_certified() const { return largest_cosine <= 1e-3; }
 };
-// Where noise is far below the force, a cosine that small is still a residual that a time between the grid's could
-// lower: `known` are branches of networks that were refined, and the floor is then below each of those.
+// If noise is far below the force, even with so small a cosine a time between those of the grid could lower the
+// residual. So `known` holds branches of networks that were refined: the floor is below each of these.
 Floor linear_floor(const Problem& problem, const std::vector<Term>& beside, bool gains_are_free, double per_decade = 8,
                    const std::vector<Term>& known = {});
 

@@ -30,14 +30,14 @@ std::string range_text(const Interval& interval, const std::string& unit) {
   return unit.empty() ? fmt::format("[{}, {}]", low, high) : fmt::format("[{}, {}]", quoted(low), quoted(high));
 }
 
-// A bound that holds what was measured, whatever its digits.
+// A bound of three digits, rounded outwards so that it includes what was measured.
 double bound(double value, double direction) { return outwards(value, direction, 3); }
 
 struct Covered {
   double fastest = 0, low = 0, high = 0;
 };
 
-// Of displacements as those who read the file take them: from the tool's zero, wherever the surface lies.
+// Displacements count as for readers of the file: from the tool's zero, wherever the surface lies.
 Covered covered_by(const std::vector<Recording>& recordings, double surface) {
   Covered covered;
   for (const Recording& recording : recordings) {

@@ -19,7 +19,7 @@ struct Unknown {
 };
 std::vector<Unknown> unknowns_of(const Model& model, bool gains_are_free);
 
-// ∂(model)/∂(unknown), weighted, with the model's weights in it: of logarithms, but for an exponent's own value and a
+// ∂(model)/∂(unknown), weighted, with the model's weights in it: with respect to logarithms, except for exponents and a
 // curve's parameters.
 Eigen::VectorXd unknown_slope(const Problem& problem, const Model& model, const Unknown& unknown);
 

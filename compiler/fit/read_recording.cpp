@@ -190,7 +190,7 @@ class RecordingReader {
       ++count;
     };
     for_each_field(line, take);
-    // A delimiter ends the last field, or stands before one that is empty: the width tells.
+    // A delimiter at the end of a line either ends the last field or precedes an empty one: the width decides.
     if (count + 1 == shape_.width && shape_.dialect.delimiter != ' ' && line.ends_with(shape_.dialect.delimiter))
       take(line.substr(line.size()));
     if (count != shape_.width) return report_width(line, number, count);
@@ -374,7 +374,7 @@ class RecordingReader {
     }
   }
 
-  // The force of a time is what was recorded so much later.
+  // Takes for each time the force that was recorded `force_delay` later.
   void move_force() {
     Recording& r = recording();
     std::vector<double> moved(r.force.size());
@@ -389,7 +389,8 @@ class RecordingReader {
     r.force = std::move(moved);
   }
 
-  // Positions from rest, and where they begin. What is on its way from 0 at the first row began there, a moment before.
+  // Makes positions count from rest. A tool that is on its way from 0 at the first row was at rest there, a moment
+  // before.
   void begin_at_rest() {
     Recording& r = recording();
     if (!is_motion() || choices_.keeps_positions) return;
@@ -397,7 +398,7 @@ class RecordingReader {
     const double first = r.position[0], step = r.position[1] - first;
     const bool is_moving = std::abs(step) > 1e-3 * (*high - *low);
     const bool comes_from_zero = first != 0 && first * step > 0 && std::abs(first) <= 3 * std::abs(step);
-    // At rest before its first row, the tool would have been where positions and forces begin to count.
+    // A tool that was at rest before its first row would have been at zero position and force.
     const auto [least, most] = std::minmax_element(r.force.begin(), r.force.end());
     const bool is_elsewhere = std::abs(first) > 0.05 * (*high - *low) || std::abs(r.force[0]) > 0.1 * (*most - *least);
     result_.begins_in_motion = is_moving && !comes_from_zero && is_elsewhere;

@@ -24,7 +24,7 @@ struct ReadChoices {
   std::optional<Geometry> geometry;
   Start start = Start::automatic;
   bool has_header = true;
-  bool awaits_geometry = false;  // what is of a material is read as it stands, and that a geometry is needed is told
+  bool awaits_geometry = false;  // material quantities are read as they are, with a warning that a geometry is needed
   bool keeps_positions = false;  // a surface is looked for: positions stay as they stand in the file
   double force_delay = 0;        // the force was recorded so much later than it acted [s]
 };

@@ -101,7 +101,7 @@ void find_header(TableShape& shape, const std::vector<HeadLine>& head) {
   }
   const auto fits = [&](std::size_t i) { return i < above.size() && above[i].size() == shape.width; };
   if (!fits(0)) return;
-  // Below names most of them do, and what is none is one that is not known.
+  // A line below names is one of units if most of its fields are; the others are unknown units.
   const auto units = std::count_if(above[0].begin(), above[0].end(), [](const auto& f) { return is_unit(f); });
   const auto names = [](const std::vector<std::string>& line) {
     return std::count_if(line.begin(), line.end(), [](const auto& f) { return !is_unit(f); });

@@ -56,7 +56,7 @@ std::optional<double> number_of(std::string_view field, const Dialect& dialect);
 std::optional<TableShape> table_shape(const std::string& path, const std::vector<HeadLine>& head, bool has_header,
                                       Diagnostics& diagnostics);
 
-// Of the beginning of a table: they tell how it is written.
+// Lines at the beginning of a table from which its format is found.
 inline constexpr std::size_t head_lines = 200;
 
 // How the fields of most lines are separated; nothing where no line is a row of numbers.

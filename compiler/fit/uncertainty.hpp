@@ -28,8 +28,8 @@ struct CurveQuantity {
 double value_of(const Model& model, const CurveQuantity& quantity);
 std::vector<CurveQuantity> curve_quantities(const CurveShape& curve);
 
-// What the static curve of a network is made of: its springs and those in front of slips, or where there are none, all
-// Maxwell branches and springpots [N/m]. `is_instantaneous` of the second.
+// The stiffness that a network's static curve is made from: of its springs and those in front of slips, or if there are
+// none, of all Maxwell branches and springpots [N/m]; `is_instantaneous` for the latter.
 struct CurveStiffness {
   double value = 0;
   bool is_instantaneous = false;

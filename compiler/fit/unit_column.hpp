@@ -11,7 +11,7 @@
 
 namespace dashpot::compiler::fitting {
 
-// Angular frequencies that all of the recordings speak of [rad/s].
+// The angular frequencies of all recordings together, and a decade on either side [rad/s].
 struct Band {
   double low;
   double high;

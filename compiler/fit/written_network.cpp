@@ -220,7 +220,7 @@ std::vector<FittedCurveValue> curve_values_of(const Model& model, motion port_mo
 void round_values(std::vector<FittedCurveValue>& values, const Model& model, double stiffness, motion port_motion,
                   int extra) {
   const PortUnits units = port_units(port_motion);
-  // Neighbours of a table have to rise as they do.
+  // A table's points have to rise after rounding too.
   const int more = model.curve && model.curve->kind() == CurveShape::Kind::table ? 2 + extra : extra;
   for (FittedCurveValue& value : values) {
     value.value = value_of(model, value.quantity);

@@ -123,8 +123,8 @@ struct TunableSlipRule {
   double coil_share;  // κ: of what is missing from √b, that the coil makes up in a sample [1]
 };
 
-// The map of a static curve that the network lies behind, if there is one. Nothing is held there that the bend of the
-// curve cannot pay for (theory, section 11).
+// The map of a static curve that the network lies behind, if there is one. Changes of parameters then also pay for how
+// far w goes while a force is held (theory, section 11).
 struct TunableMap {
   bool is_there;
   double largest_change;     // of w while a force is held, at the largest speed [m]

@@ -106,7 +106,7 @@ MotionMap with_cells(const StaticCurve& curve, const Real& stiffness, double rea
   return map;
 }
 
-// By how much w′ is off, and up to where it is by more than a reader need not know.
+// The largest error of w′, and up to which displacement it is large enough to be stated.
 void measure_slope(const StaticCurve& curve, const Real& stiffness, MotionMap& map) {
   constexpr double unsure = 1e-2;  // of its largest
   const double steepest = map.steepest(), width = map.width();

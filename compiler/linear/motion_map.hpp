@@ -20,14 +20,14 @@ namespace dashpot::compiler {
 Real force_at(const StaticCurve& curve, const Real& displacement);
 Real work_between(const StaticCurve& curve, const Real& from, const Real& to);
 
-inline constexpr double most_static_error = 5e-4;     // that more cubics are taken for
-inline constexpr double largest_static_error = 1e-2;  // beyond, a curve is refused
+inline constexpr double most_static_error = 5e-4;     // above it, more cubics are used
+inline constexpr double largest_static_error = 1e-2;  // above it, a curve is refused
 inline constexpr std::size_t most_cubics = 1024;
 
-// In: a network with a static curve, the form of what of it reaches to ground without a slip. Out: its map, of 32
-// cubics or of as many times two as it takes to have the static force off by no more than `error` of the largest, if
-// most_cubics do. Refuses: a curve at rest of a network that holds no force at rest, a curve at once of one that has no
-// springs, a curve that bends too sharply.
+// In: a network with a static curve, and the form of its part that reaches ground without a slip. Out: its map, of 32
+// cubics, doubled until the static force is off by no more than `error` of the largest, or up to most_cubics. Refuses:
+// a curve at rest for a network that holds no force at rest, a curve at once for one without springs, a curve that
+// bends too sharply.
 std::optional<MotionMap> motion_map(const Network& network, const LinearForm& form, Diagnostics& diagnostics,
                                     double error = most_static_error);
 

@@ -131,7 +131,7 @@ class Block {
     Real m;
   };
 
-  // Modes of one rate are any of many: their sum is taken apart terminal by terminal, so that equal parts give equal
+  // Modes of equal rate are not unique: their sum is split anew terminal by terminal, so that equal parts give equal
   // laws.
   std::vector<Relaxation> taken_apart(std::vector<Relaxation> all) const {
     std::vector<Relaxation> result;

@@ -29,7 +29,7 @@ struct MultiportForm {
 };
 
 // In: springs and dampers, the nodes at which they are looked at. Every other node is tied to terminals or the ground
-// by them. Ensures: what nothing joins has no tie and no weight in common, exactly.
+// by them. Ensures: terminals that nothing joins have exactly no tie and no mode in common.
 MultiportForm multiport_form(const Network& network, const std::vector<std::size_t>& elements,
                              const std::vector<NodeIndex>& terminals);
 

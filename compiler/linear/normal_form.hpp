@@ -37,7 +37,7 @@ NormalForm normal_form(const Network& network);
 // The same network with everything that is behind a slip marked as without effect.
 Network linear_part(const Network& network, const NormalForm& form);
 
-// All of it as one tree: with a contact, whatever is behind the surface answers as one.
+// The whole network as one tree, for a contact: all that is behind the surface answers as one part.
 NormalTree whole_tree(const NormalForm& form, const Network& network);
 
 // Yield forces by the nodes that slips join, among these elements; side by side they add.

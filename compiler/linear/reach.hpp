@@ -7,7 +7,7 @@
 
 namespace dashpot::compiler {
 
-// Of stiffnesses among each other, and of dampings [1]. Up to here results were compared with exact ones.
+// The largest ratio of two stiffnesses, or of two dampings [1]. Up to it results were compared with exact ones.
 inline constexpr double widest_spread = 1e24;
 // Inner nodes that springs, dampers and slips join without passing tool or ground: the work grows with their cube.
 inline constexpr std::size_t most_inner_nodes = 400;

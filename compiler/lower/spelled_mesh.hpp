@@ -14,7 +14,7 @@ namespace dashpot::compiler {
 
 class SpelledMesh {
  public:
-  // All outlive this.
+  // The arguments must outlive this object.
   SpelledMesh(SpelledNumbers& numbers, const BlockPart& part, const std::vector<MeshEdge>& edges);
 
   // In what follows `values` are stiffness or damping of each edge.
@@ -27,12 +27,13 @@ class SpelledMesh {
   // At low frequency.
   ExpressionId viscosity(const std::vector<ExpressionId>& values);
 
-  // How far each edge is stretched when its end at the port has moved by `change`; under the load alone that the
-  // springs make of `position`.
+  // The elongation of each edge: when the port has moved by `change`, under the pushes left by held(); and at rest with
+  // the port at `position`, where the springs alone carry force.
   std::vector<ExpressionId> moved(ExpressionId change);
   std::vector<ExpressionId> loaded(const std::vector<ExpressionId>& values, ExpressionId position);
 
-  // By the force of each spring, of a damper nothing: what is held at the port. Leaves the pushes for moved().
+  // In: the force of each edge's spring, `nothing` for a damper. Out: the force held at the port. Leaves the pushes for
+  // moved().
   ExpressionId held(const std::vector<ExpressionId>& forces);
 
  private:

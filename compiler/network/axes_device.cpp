@@ -133,7 +133,7 @@ class AxesDeviceBuilder {
   void read_joints() {
     for (const DeviceDecl& joint : decl_.joints) {
       const std::optional<device_description> description = described(joint);
-      if (!description) return;  // what the second shares with the first is told once
+      if (!description) return;  // what is wrong with parts that both share is reported once
       device_.joints.push_back(*description);
     }
   }
@@ -144,7 +144,7 @@ class AxesDeviceBuilder {
                                                         decl_.brakes.size());
     for (const BrakeDecl& decl : decl_.brakes) {
       const auto along = decl.along ? read_direction("along", *decl.along, diagnostics_) : std::nullopt;
-      if (has_errors() && device_.joints.empty()) return;  // of the loop, which has been told
+      if (has_errors() && device_.joints.empty()) return;  // errors of the loop, which have been reported
       const auto description = described(decl.device);
       if (along && description) device_.brakes.push_back({*along, description->brake});
     }

@@ -39,7 +39,7 @@ const JsonMember* kind_of(const JsonValue& map, const ObjectReader& reader, Diag
   return kind;
 }
 
-// What stands in the object of a map: each key is there, or reported.
+// Reads the object of a map; a key that is missing is reported.
 class MapReader {
  public:
   MapReader(const std::string& kind, const JsonValue& object, const std::vector<std::string>& keys,
@@ -118,8 +118,8 @@ std::optional<std::vector<double>> read_lengths(const std::string& key, const Js
 constexpr std::size_t most_knots_a_side = 64, most_knots = 1600;
 constexpr double least_step = 1e-9;  // between knots [m]
 
-// The step between the knots of one side; nothing, reported, where they do not rise by equal ones. Steps that are
-// written in decimals differ by 1e-6 of one at most.
+// The step between the knots along one axis; reports knots that do not rise by equal steps. They are written in
+// decimals, so a millionth of a step is allowed.
 std::optional<double> step_of(const std::string& key, const JsonValue& value, const std::vector<double>& knots,
                               Diagnostics& diagnostics) {
   const double step = (knots.back() - knots.front()) / double(knots.size() - 1);
@@ -141,7 +141,7 @@ struct KnotValues {
   std::vector<const JsonValue*> values;  // rows of equal y, from below
 };
 
-// An object of x, y and rows of values under `what`, which are `whats`.
+// Reads an object of x, y and rows of values under the key `what`; `whats` is its plural, for messages.
 std::optional<KnotValues> read_grid_of(const std::string& key, const JsonValue& value, const char* what,
                                        const char* whats, Diagnostics& diagnostics) {
   const MapReader reader(key, value, {"x", "y", what}, diagnostics);
@@ -232,7 +232,7 @@ std::optional<axes::Matrix<double>> read_matrix(const char* key, const JsonValue
   return axes::Matrix<double>{*first, *second};
 }
 
-// Nothing, reported, where it gives power.
+// Empty, with an error, for a matrix that feeds power to the tool.
 std::optional<axes::Matrix<double>> read_viscous(const JsonValue& value, Diagnostics& diagnostics) {
   const std::optional<axes::Matrix<double>> matrix =
       read_matrix("viscous", value, dimensions::damping, "[[\"5 N s/m\", 0], [0, \"5 N s/m\"]]", diagnostics);
@@ -264,7 +264,7 @@ void read_field(const AxesNetworkDecl& decl, AxesNetwork& network, Diagnostics& 
   if (auto field = read_field_grid(*decl.field_grid, diagnostics)) network.field = std::move(*field);
 }
 
-// A force from position is no field, and drives the tool round where it turns.
+// A force that depends on position is no viscous field, and with a curl it would drive the tool round.
 void refuse_stiffness(const JsonValue& value, Diagnostics& diagnostics) {
   const std::optional<axes::Matrix<double>> matrix =
       read_matrix("stiffness", value, dimensions::stiffness, "[[\"500 N/m\", 0], [0, \"500 N/m\"]]", diagnostics);
@@ -294,7 +294,7 @@ std::optional<AxesNetwork> build_axes_network(const AxesNetworkDecl& decl, Diagn
   for (const PortDecl& port : decl.ports) {
     if (std::optional<Port> built = build_port(port, device_band, diagnostics))
       network.ports.push_back(std::move(*built));
-    // The parameters are those of every port: what is wrong with them is told once.
+    // All ports share the parameters: what is wrong with them is reported once.
     else if (!port.network.parameters.empty()) break;
   }
   read_field(decl, network, diagnostics);

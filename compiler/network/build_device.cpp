@@ -20,11 +20,11 @@
 namespace dashpot::compiler {
 namespace {
 
-// Far beyond any machine: so that what a certificate multiplies stays finite.
+// Far beyond any machine, so that the products in a certificate stay finite.
 constexpr double lowest_speed = 1e-9, highest_speed = 1e9;  // [m/s] or [rad/s]
 constexpr double longest_time = 1e6;                        // of lags and lateness [s]
 constexpr double slowest_mode = 0.1;                        // [Hz]
-constexpr double smallest_part = 100;                       // of the inertia, on either side of a mode: one in so many
+constexpr double smallest_part = 100;                       // either side of a mode has at least 1/100 of the inertia
 
 // The dimensions of the joint's own coordinate.
 struct JointDimensions {
@@ -77,7 +77,7 @@ std::vector<std::string> estimator_names() {
   return names;
 }
 
-// Whether the file tells of a joint that turns, whatever it says of its motion.
+// Whether the file has values of a joint that turns, whatever its key `motion` says.
 bool tells_of_rotation(const DeviceDecl& decl) {
   if (decl.arm_radius) return true;
   const auto turns = [](const ValueDecl& value) {
@@ -91,12 +91,12 @@ bool tells_of_rotation(const DeviceDecl& decl) {
   return false;
 }
 
-// One error, instead of one for every value, where a joint that turns is not said to.
+// If the file describes a joint that turns without saying so, this is one error instead of one for every value.
 motion motion_of_joint(const DeviceDecl& decl, Diagnostics& diagnostics) {
   const bool is_known = decl.motion && (decl.motion->text == "translation" || decl.motion->text == "rotation");
   const motion stated = read_motion(decl.motion, diagnostics);
   if (is_known || stated == motion::rotation || !tells_of_rotation(decl)) return stated;
-  if (!decl.motion && !decl.complete) return motion::rotation;  // its key may be misspelt, and that is told
+  if (!decl.motion && !decl.complete) return motion::rotation;  // its key may be misspelt, which is reported
   if (!decl.motion) diagnostics.report<DiagnosticCode::missing_key>(decl.opening, "the device file", "motion");
   diagnostics.note<DiagnosticCode::write_instead>({}, "\"motion\": \"rotation\"");
   return motion::rotation;
@@ -298,14 +298,14 @@ class DeviceBuilder {
     reader.read("noise", due_.force, Bound::zero_or_more, motor.noise);
   }
 
-  // Worked out where the file says both.
+  // With the torque worked out if the file states both values.
   void note_torque(const SectionReader& reader, const std::optional<double>& current) {
     const auto constant = reader.stated("torque_constant", due_.force_constant);
     diagnostics_.note<DiagnosticCode::torque_of_current>(
         {}, current && constant ? fmt::format(": \"{:.6g} {}\"", *constant * *current, unit_of(due_.force)) : "");
   }
 
-  // What is damping at the tool is refused, and worked out for the joint.
+  // A damping stated at the tool is refused, with a note that says its value at the joint.
   void read_damping(const SectionReader& reader, std::string_view key, Bound bound, double& target) const {
     reader.read(key, due_.damping, bound, target);
     const double arm = device_.description.arm_radius;

@@ -78,7 +78,7 @@ class NetworkBuilder {
     network_.port_motion = read_motion(decl_.motion, diagnostics_);
   }
 
-  // What is wrong with what all ports share is told once, and then nothing of the ports.
+  // What is wrong with parts that all ports share is reported once; then the ports are not read.
   Network build_ports() {
     check_names();
     read_validity();
@@ -207,7 +207,7 @@ class NetworkBuilder {
     network_.elements.push_back({std::move(name), law, a, b, placed.leaf->span, {}});
   }
 
-  // The last element's value becomes so many times a tunable, if there is one.
+  // Makes the last element's value `share` times the tunable parameter, if there is one.
   void follow(const std::optional<std::size_t>& tunable, ElementKind kind, double share) {
     if (!tunable) return;
     Element& element = network_.elements.back();
@@ -229,7 +229,7 @@ class NetworkBuilder {
     network_.springpots.push_back(std::move(springpot));
   }
 
-  // A range from 0 asks for nothing at its lower end: nobody can state that end.
+  // A range that begins at 0 asks for nothing there: no band can begin at 0.
   void warn_beyond_band(const Springpot& springpot, const std::optional<Range>& asked, std::string_view who) {
     if (!asked || ((asked->low <= 0 || springpot.band.low <= asked->low) && asked->high <= springpot.band.high)) return;
     diagnostics_.report<DiagnosticCode::springpot_beyond_band>(springpot.span, springpot.name, springpot.band.low,
@@ -303,7 +303,7 @@ class NetworkBuilder {
                       decl_.valid->span};
   }
 
-  // A single bound is one of magnitude.
+  // A single bound limits the magnitude.
   std::optional<Range> read_range(const std::optional<RangeDecl>& decl, std::string_view taker, const Dimension& due,
                                   bool is_signed) {
     if (!decl) return std::nullopt;
@@ -319,7 +319,7 @@ class NetworkBuilder {
     return std::nullopt;
   }
 
-  // Whether the command line has put in a value: what stood there may have used a parameter.
+  // Whether the command line has replaced a value: the one in the file may have used a parameter.
   bool is_set_from_outside() const {
     const auto is_set = [](const std::optional<ValueDecl>& value) {
       return value && value->span.file != nullptr && !value->span.file->words_at(value->span.begin).empty();
@@ -329,7 +329,7 @@ class NetworkBuilder {
                        [&](const ParameterDecl& parameter) { return is_set(parameter.value); });
   }
 
-  // Where parts of the file were not understood, these would only echo it.
+  // Left out if parts of the file were not understood: these checks would only report what follows from that.
   void check_whole() {
     if (!decl_.complete) return;
     if (!decl_.shares_parameters && !is_set_from_outside()) table_.report_unused();

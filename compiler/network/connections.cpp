@@ -44,7 +44,7 @@ std::vector<std::size_t> elements_at_nodes(const Network& network) {
   return count;
 }
 
-// At the node whose name says that it was meant as `end`.
+// Adds a note at a node whose name suggests that it was meant as `end`.
 void note_what_end_is_called(const Network& network, NodeIndex end, const std::vector<Span>& node_places,
                              Diagnostics& diagnostics) {
   for (NodeIndex node = 0; node < network.nodes.size(); ++node)
@@ -97,7 +97,7 @@ void check_slip_paths(const Network& network, Diagnostics& diagnostics) {
   diagnostics.note<DiagnosticCode::add_presliding_spring>({});
 }
 
-// The node of `element` at which nothing else ends; ground, reserved, where there is none.
+// The node of `element` at which nothing else ends; `ground`, which is never one, if there is none.
 NodeIndex loose_end(const Element& element, const std::vector<std::size_t>& count) {
   if (element.a != tool && element.a != ground && count[element.a] == 1) return element.a;
   return element.b != tool && element.b != ground && count[element.b] == 1 ? element.b : ground;

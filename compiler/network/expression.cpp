@@ -51,8 +51,8 @@ bool is_plain(std::string_view text, const NameScope& scope) {
   return unit.empty() || is_unit(unit);
 }
 
-// An operator that is none of a unit's: "+" or "-" between operands, one straight behind a number or in front of one,
-// any where the text starts with a name. A bracket that starts with a number is none of a unit's either.
+// Whether there is an operator that cannot be part of a unit: "+" or "-" between operands, one directly behind a number
+// or in front of one, any if the text starts with a name. Nor can a bracket that starts with a number.
 bool has_operator(std::string_view text) {
   std::size_t at = blanks(text);
   if (name_length(text.substr(at)) > 0) return text.find_first_of("+-*/^") != std::string_view::npos;
@@ -207,7 +207,7 @@ class ExpressionReader {
     return {inner.quantity, begin, at_};
   }
 
-  // The unit reaches as far as what follows can be read as one.
+  // A number with its unit, the longest text behind it that is one.
   Term literal(std::size_t begin) {
     const std::size_t number = decimal_length(rest());
     const std::string_view digits = text_.substr(begin, number);
@@ -312,7 +312,7 @@ class ExpressionReader {
     return failed();
   }
 
-  // What an operator is written as in other places: "G × a", "G ** 2".
+  // Notes how to write an operator that is spelt as elsewhere: "G × a", "G ** 2".
   void note_other_spelling(std::size_t begin, bool after_operand) {
     const auto is_any_of = [this](std::initializer_list<std::string_view> signs) {
       return std::any_of(signs.begin(), signs.end(),
@@ -360,7 +360,7 @@ bool is_expression(const ValueDecl& decl, const NameScope& scope) {
   if (decl.form == ValueDecl::Form::number || is_plain(decl.text, scope) || !has_only_expression_bytes(decl.text))
     return false;
   const bool opens = std::string_view(decl.text).substr(blanks(decl.text)).starts_with('(');
-  // A parameter that is called like a unit does not make a misspelt quantity an expression: "5 N/m s".
+  // A parameter with the name of a unit does not turn a misspelt quantity such as "5 N/m s" into an expression.
   const NameScope no_units{[&](std::string_view name) { return scope.knows(name) && !is_unit(name); }, scope.read};
   return opens || has_operator(decl.text) || has_known_name(decl.text, no_units);
 }

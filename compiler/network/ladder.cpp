@@ -17,7 +17,7 @@ constexpr double default_time = 1;      // τ of K τ^α D^α u [s]
 constexpr double default_error = 0.01;  // of a springpot over its band
 constexpr double least_error = 1e-9;    // beyond it the rounding of the constants counts
 constexpr double greatest_error = 0.5;
-constexpr double widest_band = 1e24;  // highest over lowest frequency: further apart no values may lie
+constexpr double widest_band = 1e24;  // highest over lowest frequency, as far as any two values may be apart
 
 class LadderReader {
  public:
@@ -201,7 +201,7 @@ class LadderReader {
       diagnostics_.report<DiagnosticCode::prony_weight_negative>(leaf_.prony->terms[index].weight->span,
                                                                  negative->weight);
     } else {
-      // Without the last bits of the addition, as long as it is above 1 then.
+      // Without the rounding of the addition, unless the result is then no longer above 1.
       const double sum = series.sum_of_weights(), rounded = std::round(1e12 * sum) / 1e12;
       diagnostics_.report<DiagnosticCode::prony_sum_above_one>(leaf_.prony->terms_span, rounded > 1 ? rounded : sum);
     }

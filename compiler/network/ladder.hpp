@@ -17,7 +17,7 @@ struct Ladder {
   std::optional<std::size_t> parameter = std::nullopt;  // tunable: the branches are then for a stiffness of 1
 };
 
-// What is due where springpots do not state it.
+// Values for springpots that do not state them.
 struct LadderDefaults {
   std::optional<Range> valid_frequency;  // of the network's file [Hz]
   std::optional<Range> device_band;      // [Hz]

@@ -14,8 +14,8 @@ struct Extremes {
   double least, most;
 };
 
-// Of |w′| over the part of a stretch that lies in one cell. The slope is a parabola, which may dip below 0 where a
-// curve begins very flat.
+// The extremes of |w′| over the part of a stretch that lies in one cell. The slope is a parabola, which may dip below 0
+// where a curve begins very flat.
 Extremes tangents(const MotionMap& map, std::size_t cell, double from, double to) {
   const MapCell& m = map.cell[cell];
   const double start = double(cell) * map.width();
@@ -65,7 +65,7 @@ double MotionMap::largest_tangent(double from, double to) const {
   return most;
 }
 
-// Straight in each cell, so largest at an end.
+// w″ is linear in each cell, so that it is largest at an end.
 double MotionMap::largest_curvature(double from, double to) const {
   double most = 0;
   over_cells(*this, from, to, [&](std::size_t at) {

@@ -13,12 +13,12 @@ struct MapCell {
 
 struct MotionMap {
   double start = 0;           // u where it begins: behind a contact its surface [m] or [rad]
-  double reach = 0;           // of the last cubic's end from there [m] or [rad]
+  double reach = 0;           // distance from there to the end of the last cubic [m] or [rad]
   std::vector<MapCell> cell;  // of equal widths, from 0 on; the last is straight and has no end
-  double stiffness = 0;       // k, the network's that the curve is made of [N/m] or [N·m/rad]
+  double stiffness = 0;       // k, the network's stiffness that the curve is made from [N/m] or [N·m/rad]
   double static_error = 0;    // of the static force, over the largest [1]
   double slope_error = 0;     // of w′, over its largest [1]
-  double unsure_until = 0;    // beyond this w′ is off by a hundredth of its largest at most [m] or [rad]
+  double unsure_until = 0;    // beyond this the error of w′ is at most a hundredth of its largest [m] or [rad]
 
   std::size_t cubics() const { return cell.size() - 1; }
   double width() const { return reach / double(cubics()); }
@@ -27,8 +27,8 @@ struct MotionMap {
   double value_at(double distance) const;
   double tangent_at(double distance) const;
 
-  // Over a stretch between two distances that are not negative: not above and not below what |w′| takes there, and the
-  // largest |w″|, to rounding.
+  // Over the stretch between two distances that are not negative, to rounding: a lower and an upper bound of |w′|, and
+  // the largest |w″|.
   double least_tangent(double from, double to) const;
   double largest_tangent(double from, double to) const;
   double largest_curvature(double from, double to) const;

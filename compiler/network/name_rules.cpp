@@ -57,8 +57,8 @@ bool is_legal(std::string_view name) {
          !contains(members, name) && !name.starts_with(begin_of_macros);
 }
 
-// Other bytes become single underscores, none at the ends; digits in front and reserved words get company. What macros
-// begin with goes.
+// Replaces other bytes by single underscores, none of them at the ends; puts an 'n' before a leading digit and "_1"
+// behind a reserved word; removes the prefix of macros.
 std::optional<std::string> legal_proposal(std::string_view name) {
   while (name.starts_with(begin_of_macros)) name.remove_prefix(begin_of_macros.size());
   std::string proposal;

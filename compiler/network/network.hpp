@@ -62,7 +62,7 @@ struct StaticCurve {
   Span span;
 };
 
-// What a springpot was taken for: its Maxwell elements are among the network's.
+// A springpot as it was read; its Maxwell elements are among those of the network.
 struct Springpot {
   std::string name;
   double stiffness;  // of K τ^α D^α u [N/m] or [N·m/rad]
@@ -98,8 +98,8 @@ struct Network {
   std::string digest;  // of the file's bytes
   Span name_span;
 
-  // Where the unloaded surface lies, and what of a position pushes it in; without a contact 0, and all of it [m] or
-  // [rad].
+  // Where the unloaded surface lies, and how far beyond it a position is; without a contact 0, and the position itself
+  // [m] or [rad].
   double surface() const { return contact ? contact->at : 0; }
   double surface_behind_map() const { return map ? 0 : surface(); }  // as the law sees it
   double pushed_in(double position) const { return contact ? dashpot::pushed_in(contact->at, position) : position; }
@@ -108,8 +108,8 @@ struct Network {
 // In: what the author wrote. Out: the network in SI. Ensures: values finite and non-negative, names legal C++ names and
 // unique ignoring case, tool and ground connected, no part connected to neither. Elements through which no force can
 // pass are kept, marked, and warned about; springpots and Prony series have become Maxwell elements in parallel.
-// `device_band` [Hz] is what springpots hold over that state no band, in files that state no valid frequencies.
-// Refuses: everything of architecture, section 3, all problems at once.
+// `device_band` [Hz] is the band of springpots that state none, in files that state no valid frequencies. Refuses:
+// everything of architecture, section 3, all problems at once.
 std::optional<Network> build_network(const NetworkDecl& decl, Diagnostics& diagnostics,
                                      const std::optional<Range>& device_band = std::nullopt);
 

@@ -108,7 +108,7 @@ NameScope ParameterTable::scope() {
           [this](const Text& name) { return read_operand(name); }};
 }
 
-// A plain number stays one: an expression does not say what would be due.
+// A plain number counts as dimensionless: an expression does not say which unit would be due.
 std::optional<ExactQuantity> ParameterTable::read_operand(const Text& name) {
   const auto index = index_of_name_.find(name.text);
   if (index == index_of_name_.end()) {

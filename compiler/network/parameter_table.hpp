@@ -20,8 +20,8 @@ struct ReadValue {
 
 class ParameterTable {
  public:
-  // Reports ranges that are missing, contradictory, or do not hold the value. Elements are no parameters; their names
-  // serve to say so.
+  // Reports ranges that are missing, contradictory, or do not hold the value. The elements' names serve for messages
+  // about values that name an element.
   ParameterTable(const std::vector<ParameterDecl>& decls, std::vector<Text> element_names, Diagnostics& diagnostics);
 
   // A number, a quantity of the dimension that is due, an expression of constants of that dimension, or the name of a
@@ -43,7 +43,7 @@ class ParameterTable {
     ParameterDecl decl;
     ExactReal exact = 0;                 // the value before it was rounded
     std::optional<Dimension> dimension;  // nothing where value and range are plain numbers, until the first use
-    std::optional<Span> first_use;       // that told the dimension
+    std::optional<Span> first_use;       // which fixed the dimension
     bool readable = true;
     bool used = false;
   };

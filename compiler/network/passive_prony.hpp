@@ -13,7 +13,8 @@ struct PronyTerm {
   double time;    // [s]
 };
 
-// What `stiffness` is: the relaxation function at once, after long, or after long with weights that are stiffnesses.
+// What `stiffness` is: the instantaneous value of the relaxation function, the long-term one, or the long-term one with
+// weights that are stiffnesses.
 enum class PronyOf { instantaneous, long_term, absolute };
 
 std::string_view name_of(PronyOf of);                    // "instantaneous", "long-term", "absolute"

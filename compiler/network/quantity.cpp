@@ -25,13 +25,13 @@ void report_two_readings(const Span& place, const std::string& unit, Diagnostics
                                                  fmt::format("{}/({})", above, below));
 }
 
-// What stands behind a symbol up to the next one, as "^2" and "²"; a plain number gets the '^' that it lacks.
+// The exponent behind a symbol, such as "^2" or "²"; a plain number gets the missing '^'.
 std::string exponent_behind(std::string_view symbol) {
   const std::string exponent(symbol.substr(0, symbol.find_first_of(" /*()")));
   return !exponent.empty() && is_digit(exponent.front()) ? "^" + exponent : exponent;
 }
 
-// Between a number's digits; three of them behind it may be thousands.
+// A note on a comma between digits; with three digits behind it, it may separate thousands.
 void note_on_comma(const std::string& before, const std::string& behind, Diagnostics& diagnostics) {
   const std::size_t digits = std::min(behind.find_first_not_of("0123456789"), behind.size());
   if (digits == 3) diagnostics.note<DiagnosticCode::write_either>({}, before + behind, before + "." + behind);

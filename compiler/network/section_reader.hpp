@@ -17,7 +17,7 @@ namespace dashpot::compiler {
 
 enum class Bound { any, zero_or_more, above_zero };
 
-// A key that is known to be written where another is meant, and what notes the way out.
+// A key that people write where another is meant, and the function that notes the remedy.
 struct KeyRemedy {
   std::string_view key;
   std::function<void(const EntryDecl&)> note;
@@ -26,7 +26,7 @@ struct KeyRemedy {
 // In SI, where it is one quantity of this dimension; reports nothing.
 std::optional<double> stated_in(const EntryDecl& entry, const Dimension& dimension);
 
-// Every read leaves its target alone where the key is absent or, reported, not what is due.
+// Every read leaves its target unchanged if the key is absent, or if its value is not what is due, which is reported.
 class SectionReader {
  public:
   SectionReader(const DeviceDecl& decl, std::string name, motion joint_motion, Diagnostics& diagnostics);

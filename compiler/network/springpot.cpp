@@ -26,7 +26,7 @@ double geometric(double power, double x, double step) {
   return std::exp(power * x) / -std::expm1(-std::abs(power) * step);
 }
 
-// A tail as one element, and how far that is from it.
+// A tail lumped into one element, and the error of that.
 struct Tail {
   MaxwellBranch lumped;
   double error;
@@ -48,7 +48,7 @@ Tail tail_above(double exponent, double scale, double x, double step, double hig
   return {{viscosity * rate, rate}, (second - first * first / viscosity) * std::pow(high, 3 - exponent)};
 }
 
-// Where the grid lies such that both tails err alike: the one grows as the other falls.
+// Shifts the grid until the errors of both tails are equal: one grows as the other falls.
 SpringpotGrid balanced(double exponent, double low, double high, double step, std::size_t points) {
   const double scale = std::sin(pi * exponent) / pi * step;
   const double length = static_cast<double>(points) * step;
@@ -65,7 +65,7 @@ SpringpotGrid balanced(double exponent, double low, double high, double step, st
 struct Tails {
   Tail below;
   Tail above;
-  double error;  // with the ripple of what lies between them
+  double error;  // of both tails and of the ripple between them
 };
 
 Tails tails_of(double exponent, double low, double high, const SpringpotGrid& grid) {

@@ -10,7 +10,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// OpenSSL fails where memory is short, or where the machine's policy forbids SHA-256: then nothing is certain any more.
+// OpenSSL fails if memory is short, or if the machine's policy forbids SHA-256: then there is no digest to rely on.
 void insist_on(int done) {
   if (done != 1) throw std::runtime_error("no SHA-256 from OpenSSL's libcrypto");
 }

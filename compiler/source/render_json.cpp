@@ -8,12 +8,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The words of the command line that are in place of the file's own text there; empty where none are.
+// The command-line words that replace the file's text there; empty if none do.
 std::string_view words_at(const Span& span) {
   return span.file == nullptr ? std::string_view() : span.file->words_at(span.begin);
 }
 
-// What the command line states has no line in its file.
+// A value from the command line has no line in its file.
 Json place_of(const Span& span) {
   if (span.file == nullptr || !words_at(span).empty())
     return {{"file", span.file == nullptr ? Json(nullptr) : Json(span.file->path())},

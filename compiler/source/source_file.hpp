@@ -34,7 +34,7 @@ class SourceFile {
   std::string_view line(std::size_t number) const;  // without its end of line
 
   void mark_changed(std::vector<ChangedPart> parts) { changed_ = std::move(parts); }
-  // The words of the command line that put there what stands at `offset`; empty where it is the file's own.
+  // The command-line words that put in the text at `offset`; empty if the text is the file's own.
   std::string_view words_at(std::size_t offset) const;
 
  private:

@@ -1,4 +1,4 @@
-// An object of some members of others, each with the place where it stands.
+// An object put together from members of others; each keeps its place in the file.
 #pragma once
 
 #include <string>

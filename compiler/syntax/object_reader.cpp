@@ -84,7 +84,7 @@ std::optional<RangeDecl> ObjectReader::range(std::string_view key) const {
 
 Span ObjectReader::opening() const { return {object_.span.file, object_.span.begin, object_.span.begin + 1}; }
 
-// What others call the way from a motor to a tool.
+// Other people's names for the way from a motor to a tool.
 static bool is_transmission(std::string_view key) {
   for (const std::string_view name :
        {"gear_ratio", "capstan_ratio", "transmission_ratio", "reduction", "ratio", "gear", "capstan"})

@@ -58,7 +58,7 @@ std::vector<PortDecl> parse_ports(const ObjectReader& reader, Diagnostics& diagn
   return ports;
 }
 
-// Of a field 'viscous' or a 'grid' of it, and 'stiffness', of which is told what is wrong with it.
+// Takes a field's 'viscous' or its 'grid', and 'stiffness', which is refused later with the reason.
 void parse_field(const ObjectReader& file, AxesNetworkDecl& decl, Diagnostics& diagnostics) {
   const JsonValue* object = file.object("field");
   if (object == nullptr) return;
@@ -76,8 +76,8 @@ void parse_field(const ObjectReader& file, AxesNetworkDecl& decl, Diagnostics& d
   if (viscous != nullptr) decl.viscous = viscous->value;
 }
 
-// What stands under `key` for each of two: a list of two objects, or one object for both. Empty where there is nothing,
-// or, reported, something else.
+// The values under `key` for both joints: a list of two objects, or one object for both. Empty if there is nothing, or
+// something else, which is reported.
 std::vector<const JsonValue*> of_each_joint(const ObjectReader& reader, const char* key, Diagnostics& diagnostics) {
   const JsonMember* member = reader.find(key);
   if (member == nullptr) return {};
@@ -106,7 +106,7 @@ std::vector<DeviceDecl> parse_joints(const ObjectReader& reader, Span span, Diag
   std::vector<DeviceDecl> decls;
   const auto at_once = [&](const ObjectOf& joint) { decls.push_back(parse_device_object(joint.value(), diagnostics)); };
   at_once(joints[0]);
-  // What both share is told once.
+  // What is wrong with parts that both share is reported once.
   if (diagnostics.error_count() == errors_before) at_once(joints[1]);
   return decls;
 }

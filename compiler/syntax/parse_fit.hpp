@@ -1,4 +1,4 @@
-// What `dashpot fit` writes into a network of where its numbers come from.
+// The record that `dashpot fit` writes into a network file of where its numbers come from.
 #pragma once
 
 #include "syntax/object_reader.hpp"

@@ -17,7 +17,7 @@ struct Choice {
   std::string emission = "";  // options of `compile` alone: they change no bit
 };
 
-// Every scheme, state input, decomposition and rate, in changing company.
+// Every scheme, state input, decomposition and rate, in varying combinations.
 std::vector<Choice> all_choices();
 
 struct Case {

@@ -164,7 +164,7 @@ Emitted emitted(compiler::Network network, compiler::ScalarType scalar, std::uin
   return emitted(std::move(compilation), diagnostics, {});
 }
 
-// Those of one axis that dashpot brings along, but for the measured ones, which are as many more of the same kinds.
+// The networks of one axis that dashpot ships, without the measured ones: those are many more of the same kinds.
 std::vector<fs::path> network_files() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(DASHPOT_NETWORKS)) {
@@ -204,7 +204,7 @@ std::vector<Emitted> all_emitted(compiler::ScalarType scalar) {
   return all;
 }
 
-// Where a law is put to rest [m]: every other one where no position is.
+// The position given to reset() [m]; for about half of the laws a NaN.
 double start_of(const Emitted& one) { return one.name().size() % 2 == 0 ? 0.002 : double(NAN); }
 
 // Each law over the motion; damping, force and kept share of every row, what set() said before, and the energy in the
@@ -272,7 +272,7 @@ std::string first_difference(const std::string& one, const std::string& other) {
                      other.substr(from, 120));
 }
 
-// Fails if a part that is written once for all laws, or what only some laws have, is in none of these.
+// Fails if none of these headers has one of the parts that only some laws have.
 void expect_all_parts(const std::vector<Emitted>& all) {
   for (const char* part :
        {"_tree_step(", "_tree_push(", "_network_step(", "_mean_decay(", "_square_root(", "_take_value(",
@@ -315,13 +315,13 @@ void expect_same_bits(compiler::ScalarType scalar) {
   std::vector<const char*> compilers{scalar == compiler::ScalarType::float64 ? gcc : clang};
   if (is_thorough()) compilers = {gcc, clang};
   for (const char* compiler : compilers) EXPECT_EQ(first_difference(finished(compiler, run), expected), "") << compiler;
-  // Of C++ what is read is another language; what is made of it is gcc's.
+  // Only the reading of the text differs in C++; the code is gcc's as before.
   const char* const as_cpp = DASHPOT_GXX " -x c++ -std=c++17";
   if (is_thorough()) EXPECT_EQ(first_difference(finished(as_cpp, run), expected), "") << as_cpp;
   else finished(as_cpp, "-fsyntax-only");
 }
 
-// Fails if a header in C does not compile where the strictest read it, or a bit differs from what is simulated.
+// Fails if a header in C does not compile under the strictest warnings, or a bit differs from what is simulated.
 TEST(C99, AgreesInDouble) { expect_same_bits(compiler::ScalarType::float64); }
 
 // Fails likewise in float.

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// No number is one that a description begins with, nor one of its neighbours.
+// No number has its default value, or that of a neighbour.
 compiler::Device other_device(std::uint64_t seed) {
   Random random(seed);
   const auto some = [&] { return random.log_uniform(1e-7, 1e5); };
@@ -259,7 +259,7 @@ TEST(DeviceCodeInC, EstimatesAsTheRuntimeDoes) {
   }
 }
 
-// If this fails, a device's header is silent of an estimator that a loop in C would look for in it.
+// If this fails, a device's header lacks an estimator that a loop in C would look for in it.
 TEST(DeviceCodeInC, SaysWhichEstimatorIsMissing) {
   const std::vector<compiler::Device> known = devices_with_every_estimator();
   for (const estimator_kind kind : all_estimators) {
@@ -278,7 +278,7 @@ TEST(DeviceCodeInC, SaysWhichEstimatorIsMissing) {
   }
 }
 
-// If this fails, a device whose name is no name in code, or one of its own header's, does not compile.
+// If this fails, a device does not compile whose name cannot be one in code, or is one that its header uses itself.
 TEST(DeviceCodeInCpp, TakesAnyName) {
   const TemporaryFolder folder;
   compiler::Device device = other_device(6);

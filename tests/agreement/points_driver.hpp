@@ -11,8 +11,8 @@
 namespace points {
 
 constexpr int samples = 300;
-constexpr int new_ones = 3;      // so many points are not put to rest before, but begin as they are made,
-constexpr int put_nowhere = 37;  // and so many are put to rest where no position is
+constexpr int new_ones = 3;      // a batch of so many points is not reset at first,
+constexpr int put_nowhere = 37;  // and one of so many is reset to a NaN
 
 template <class Scalar>
 bool same(Scalar a, Scalar b) {

@@ -53,8 +53,8 @@ std::vector<std::string> networks(const fs::path& folder) {
   return files;
 }
 
-// Branches, trees, meshes and what is behind a surface, with parameters; those that dashpot brings along, but for slips
-// that are coupled; one behind a static curve; and slips that each stand alone, deep among springs and dampers.
+// Branches, trees, meshes and networks behind a surface, with parameters; those that dashpot ships, without coupled
+// slips; one behind a static curve; and slips that each stand alone, deep among springs and dampers.
 std::vector<std::string> tunable_networks(const fs::path& folder) {
   std::vector<std::string> files;
   for (const char* name : {"second_order_maxwell", "springpot", "standard_solid", "friction"})
@@ -68,7 +68,7 @@ std::vector<std::string> tunable_networks(const fs::path& folder) {
   write_text(files.back(), R"({ "dashpot": 1, "name": "pressed_at_0_tunable", "contact": { "at": "-2 mm" },
     "parameters": { "K": { "value": 300, "tunable": true, "min": 30, "max": 900 } },
     "network": { "parallel": [ { "spring": "K" }, { "series": [ { "spring": "K" }, { "damper": 20 } ] } ] } })");
-  // Called like what the batch's class declares: a constant that an argument hides would be another number.
+  // With names that the batch's class declares itself: a constant that an argument hides would be another number.
   files.push_back((folder / "like_the_batch.json").string());
   std::string branches = R"({ "damper": 2, "name": "point" })";
   for (const char* name : {"block", "states", "points", "storage", "put", "run", "vector", "lane"})

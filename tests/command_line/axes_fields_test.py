@@ -209,7 +209,7 @@ class AxesFieldsTest(CommandTest):
             refused = self.dashpot("verify", "edited.json", "edited.hpp", status=INPUT_REFUSED).stderr
             self.assertRegex(refused, rf"place \d+ of '{table}' is .* recomputed")
 
-    # If this fails, a value that no one can read is taken for nothing, and what it belongs to is left out.
+    # If this fails, a value that cannot be read counts as none, and the part that it belongs to is left out.
     def test_no_value_is_lost(self):
         whole = [["1 N s/m", 0], [0, "1 N s/m"]]
         for text in ("2*B", "x N s/m", "O.5 N s/m", "NaN N s/m", "B"):
@@ -268,7 +268,7 @@ class AxesFieldsTest(CommandTest):
             self.assertRegex(refused, rf"'{'gate_reserve' if name == 'gate_recovery' else name}' is .* at (most|least)")
             self.assertEqual(refused.count("[constant-wrong]"), 1)
             self.assertNotIn("[unknown-constant]", refused)
-        # And where the promise is kept, but by another number.
+        # And if the promise is kept, but by a number other than the compiler's.
         found = re.search(r"scalar gate_factor_1 = ([\d.e+-]+);", header)
         stated = json.loads((self.folder / "certificate.json").read_text())
         stated["constants"]["gate_factor_1"] = [0.99 * float(found[1])]

@@ -308,7 +308,7 @@ class AxesTest(CommandTest):
         share = next(one["share"] for one in told["candidates"] if one["name"] == "non-injecting")
         self.assertAlmostEqual(share["worst"], 1, delta=1e-6)
 
-    # If this fails, explain is silent about ports, brakes or what is proved.
+    # If this fails, explain does not mention ports, brakes or what is proved.
     def test_explain_tells_ports_shares_and_certificate(self):
         told = json.loads(self.dashpot("explain", FIELD, "--device", PANTOGRAPH, "--json").stdout)
         self.assertEqual([port["name"] for port in told["ports"]], ["across", "out"])
@@ -526,7 +526,7 @@ class AxesTest(CommandTest):
         self.assertLess(float(lowest), 0)
         self.assertGreaterEqual(float(lowest), -float(held))
 
-    # If this fails, what knows one axis alone takes two for one, or says something that helps nobody.
+    # If this fails, a command for one axis takes a file of two axes for one of its own, or refuses it without help.
     def test_a_force_that_turns_at_once_is_refused(self):
         """Fails if a map may have its peak where the arm goes, but for a cavity that is touched on its inside only."""
         def map_of(**kind):

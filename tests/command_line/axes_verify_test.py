@@ -235,7 +235,7 @@ class AxesVerify(CommandTest):
         self.assertIn("[no-certificate]", self.verified(header, json.dumps(stated), status=INPUT_REFUSED).stderr)
         self.assertIn("[no-emitted-header]", self.verified("", certificate, status=INPUT_REFUSED).stderr)
 
-    # If this fails, whoever has mixed two compiles up is told what is wrong in one of them, and not that.
+    # If this fails, a user who has mixed up two compilations is told of an error in one of them, and not of the mix-up.
     def test_texts_of_two_compiles(self):
         header, _ = self.compiled(FIELD, "--rate", "1000")
         _, certificate = self.compiled(FIELD, "--device", "near.json")

@@ -28,7 +28,7 @@ LAWS = [[FIG_5], [PAPER / "bridge.json", "--rate", "3000"], [FIG_5, "--state-inp
         [TWENTY, "--device", PANTOGRAPH, "--state-input", "velocity"],
         [FIG_5, "--device", SOURCE / "runtime/devices/phantom_single_motor.json"]]
 GENERATED = SOURCE / "generated"
-# With what else than the defaults the headers of a folder in generated/ are made.
+# The options, other than the defaults, with which the headers of a folder in generated/ are made.
 FORMS = {"forms/backward_euler": ["--scheme", "backward-euler"], "forms/nodal": ["--scheme", "backward-euler", "--state-input", "nodal"],
          "forms/velocity": ["--state-input", "velocity"], "forms/float_delta": ["--scalar", "float"],
          "forms/float_compensated": ["--scalar", "float", "--rate", "100000"], "forms/rolled_avx512": ["--vector", "avx512"],
@@ -179,14 +179,15 @@ class CheckTest(CommandTest):
     def accepts(self, header, certificate):
         return self.said(header, certificate)[0]
 
-    # A law of a form that the compiler writes would not be proved by the program that shares nothing with it.
+    # If this failed, a law of a form that the compiler writes would not be proved by the program that shares nothing
+    # with it.
     def test_every_form(self):
         for law in LAWS:
             with self.subTest(law=law):
                 accepted, words = self.said(*self.compiled(law))
                 self.assertTrue(accepted, words)
 
-    # A committed header of a linear law would be refused, or another be proved.
+    # If this failed, a committed header of a linear law would be refused, or another be proved.
     def test_committed_headers(self):
         fig_5, told = self.compiled([FIG_5])[1], {0: 0, 3: 0, 4: 0}
         for committed in sorted(GENERATED.rglob("*.hpp")):
@@ -206,7 +207,8 @@ class CheckTest(CommandTest):
         said = f"The {told[0] + told[4]} with linear laws are proved, of the other {told[3]} nothing"
         self.assertIn(said, re.sub(r"\s+", " ", (GENERATED / "README.md").read_text()))
 
-    # The README would claim fewer lines than have to be believed, or the checker would include something of the compiler.
+    # If this failed, the README would claim fewer lines than have to be trusted, or the checker would include something
+    # of the compiler.
     def test_size_and_independence(self):
         files = sorted((SOURCE / "compiler/check").iterdir())
         lines = [line.strip() for file in files for line in file.read_text().splitlines()]
@@ -217,7 +219,7 @@ class CheckTest(CommandTest):
             self.assertTrue(all(name == "check.hpp" or name.startswith(("boost/multiprecision/", "nlohmann/")) or "." not in name
                                 for name in included), (file, included))
 
-    # What is no header or no certificate would be proved, or a file that is not there.
+    # If this failed, a text that is no header or no certificate would be proved, or a file that is not there.
     def test_other_files(self):
         header, certificate = self.compiled([FIG_5])
         for text in ("", "int main() {}", header[:len(header) // 2], header + header):
@@ -227,7 +229,8 @@ class CheckTest(CommandTest):
         for files in ([], ["a", "b", "c"], ["missing.hpp", "missing.json"]):
             self.assertEqual(subprocess.run([CHECK, *files], capture_output=True, cwd=self.folder).returncode, 2)
 
-    # Less damping than is proved would be proved, or another loop, or code that does something else.
+    # If this failed, less damping than suffices would be called proved, or another loop, or code that does something
+    # else.
     def test_false_statements(self):
         header, certificate = self.compiled([FIG_5])
         self.assertTrue(self.accepts(header, certificate))
@@ -239,7 +242,7 @@ class CheckTest(CommandTest):
             self.assertIn(old, header)
             self.assertFalse(self.accepts(header.replace(old, new, 1), certificate), new)
 
-    # What a loop declares would be taken for what has that name after it.
+    # If this failed, a name that a loop declares would be taken for what has that name after the loop.
     def test_scopes(self):
         header, certificate = self.compiled([TWENTY])
         for kept in "10":
@@ -256,8 +259,8 @@ class CheckTest(CommandTest):
         device["assumed"].remove("motor.amplifier_lag")
         return self.write("adaptive.json", json.dumps(device))
 
-    # A motor that follows an adaptive window would be refused, or pay for it as much as without a storage function; or
-    # be proved by one of the windows alone, or by those of another fit.
+    # If this failed, a motor that follows an adaptive window would be refused, or pay for it as much as without a
+    # storage function; or be proved by one of the windows alone, or by those of another fit.
     def test_adaptive_window(self):
         for fit, window, most in (("end", 10, 1.4), ("best", 10, 1.35), ("end", 20, 1.9)):
             device = self.adaptive_device(fit=fit, window=window)
@@ -288,8 +291,8 @@ class CheckTest(CommandTest):
                     files = self.write("law.json", json.dumps(certificate)), self.write("law.hpp", edited)
                     self.dashpot("verify", "--allow-uncertified", *files, status=0 if edited == header else INPUT_REFUSED)
 
-    # A motor that follows a velocity over measured intervals would be refused, or be proved for other intervals, for an
-    # estimate over the nominal period, later, or with less.
+    # If this failed, a motor that follows a velocity over measured intervals would be refused, or be proved for other
+    # intervals, for an estimate over the nominal period, later, or with less.
     def test_measured_interval(self):
         device = json.loads(PANTOGRAPH.read_text())
         device["velocity"] = {"estimator": "interval_difference"}
@@ -318,8 +321,8 @@ class CheckTest(CommandTest):
         self.dashpot("verify", "--allow-uncertified", *files)
         self.refused("compile", *law, "--state-input", "velocity", code="velocity-input-drifts")
 
-    # Commands that act later than their samples would be refused, or be proved for earlier ones, for fewer of them, or
-    # with less; behind a lag, under jitter and counted sample by sample too.
+    # If this failed, commands that act later than their samples would be refused, or be proved for earlier ones, for
+    # fewer of them, or with less; behind a lag, under jitter and counted sample by sample too.
     def test_late_commands(self):
         prompt = json.loads(PANTOGRAPH.read_text())
         del prompt["motor"]["amplifier_lag"]
@@ -352,7 +355,8 @@ class CheckTest(CommandTest):
                 files = self.write("law.json", json.dumps(certificate)), self.write("law.hpp", header)
                 self.dashpot("verify", "--allow-uncertified", *files)
 
-    # Who asks about a law behind a static curve would be shown a piece of code in place of a reason.
+    # If this failed, a user who asks about a law behind a static curve would be shown a piece of code instead of a
+    # reason.
     def test_static_curve(self):
         net = self.write("curve.json", network('{ "parallel": [ { "spring": 400 }, { "damper": 2 } ] }', "curve",
                                                '"static": { "power": 1.5, "force": "2 N", "at": "10 mm" }, "valid": { "displacement": "10 mm" },'))
@@ -360,13 +364,13 @@ class CheckTest(CommandTest):
         self.assertEqual(self.status, 3)
         self.assertIn("curves", words)
 
-    # Who asks about a law of two axes would be shown what a library says of a missing key.
+    # If this failed, a user who asks about a law of two axes would be shown a library's message about a missing key.
     def test_two_axes(self):
         words = self.said(*self.compiled([SOURCE / "networks/axes/kelvin_field.json", "--device", SOURCE / "runtime/devices/pantograph_2dof.json"]))[1]
         self.assertEqual(self.status, 3)
         self.assertIn("two axes", words)
 
-    # A law that lacks damping on its device would pass for one that has it.
+    # If this failed, a law that lacks damping on its device would pass for one that has it.
     def test_lacking_damping(self):
         header, certificate = self.compiled([FIG_5, "--device", SOURCE / "runtime/devices/phantom_single_motor.json"])
         self.assertIn("not proved: that as much damping is there", self.said(header, certificate)[1])
@@ -381,8 +385,9 @@ class CheckTest(CommandTest):
         files = [self.write("checked/law.hpp", header), self.write("checked/law.json", json.dumps(certificate))]
         return self.dashpot("verify", "--allow-uncertified", *files, status=None).returncode == 0
 
-    # A number that is edited, by an ulp or by a lot, in a header or in a certificate: what is stated then would be accepted though it
-    # is false, or `verify` let an edit pass that changes more than the last digits of a number that rests on searches.
+    # If this failed, after an edit of a number in a header or a certificate, by an ulp or by a lot, a false statement
+    # would be accepted, or `verify` would let an edit pass that changes more than the last digits of a number that
+    # rests on searches.
     def test_edited_numbers(self):
         chance = random.Random(SEED)
         cases = [self.compiled(law) for law in EDITED]

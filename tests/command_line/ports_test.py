@@ -189,7 +189,7 @@ class PortsTest(CommandTest):
         self.assertLess(float(re.search(r"rms \S+ N \((\S+) %\)", told)[1]), 5)
         self.assertIn("never below 0 J", told)
 
-    # If this fails, what lacks damping is refused without a word of what would do.
+    # If this fails, a network that lacks damping is refused without a remedy.
     def test_too_little_damping_is_refused(self):
         weak = {**RIG, "mechanics": {"inertia": "0.1 kg", "damping": "0.01 N s/m"}, "brake": {**RIG["brake"], "max_damping": "0.01 N s/m"}}
         self.write("weak.json", json.dumps(weak))
@@ -200,7 +200,7 @@ class PortsTest(CommandTest):
         self.write("strong.json", json.dumps({**weak, "brake": {**weak["brake"], "max_damping": brake + " N s/m"}}))
         self.dashpot("compile", network, "--device", "strong.json")
 
-    # If this fails, what makes no sense beside ports is read over.
+    # If this fails, a key that makes no sense beside ports is ignored.
     def test_what_is_refused(self):
         port = {"name": "one", "network": KELVIN}
         for network, code in [(side_by_side(port, network=KELVIN), "beside-ports"), (side_by_side(port, contact={"at": 0}), "beside-ports"),
@@ -218,7 +218,7 @@ class PortsTest(CommandTest):
         self.assertIn("several ports", self.dashpot("export", "--to", "generic", "good.json", status=INPUT_REFUSED).stderr)
         self.assertIn("several ports", self.dashpot("explain", "good.json", "--as", "kelvin", status=INPUT_REFUSED).stderr)
 
-    # If this fails, what is wrong with the parameters of all ports is told once for each of them.
+    # If this fails, an error in the parameters of all ports is reported once for each of them.
     def test_shared_mistakes_are_told_once(self):
         self.network({"name": "one", "network": {"spring": "K"}}, {"name": "two", "network": {"spring": "K"}}, parameters={"K": "4 kg"},
                      valid={"rate": "1 N"})

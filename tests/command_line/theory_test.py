@@ -37,8 +37,8 @@ class TheoryTest(CommandTest):
         self.assertTrue(found)
         self.assertLessEqual(found, axioms)
 
-    # The theorem would not be proved, or rest on more than it is said to; a law's instance would not be accepted, or one
-    # with a hundred-thousandth less damping would be.
+    # If this failed, the theorem would not be proved, or rest on more than it is said to; a law's instance would not be
+    # accepted, or one with a hundred-thousandth less damping would be.
     def test_theory_and_instances(self):
         for name in ("Forms.v", "Loop.v", "Hold.v", "Sums.v", "Slips.v", "Clamp.v"):
             self.coqc(name, (THEORY / name).read_text())
@@ -65,7 +65,7 @@ class TheoryTest(CommandTest):
                 self.assertNotEqual(lowered, text)
                 self.coqc("Lowered.v", lowered, accepted=False)
 
-    # A law without a storage function would leave an empty proof behind.
+    # If this failed, a law without a storage function would leave an empty proof behind.
     def test_nothing_to_prove(self):
         refused = self.refused("compile", SOURCE / "networks/paper/visco_elasto_plastic.json", "--proof", "law.v",
                                code="no-storage-function")

@@ -85,8 +85,7 @@ std::string text_of(const Network& network) {
   return text;
 }
 
-// Brakes that lack what the network wants, loops that are late: a law then has less in the brake, or more than the
-// network.
+// Brakes that are too weak for the network, and loops that are late: a law then gives the brake less, or adds damping.
 compiler::Device random_device(double rate, Random& random) {
   compiler::Device device;
   device.name = "random";
@@ -115,7 +114,7 @@ compiler::Compilation compiled_text(const std::string& text, const Choices& choi
   const compiler::SourceFile file("random.json", text);
   compiler::Diagnostics diagnostics;
   std::optional<compiler::Compilation> compilation = compiler::compile(file, choices, device, diagnostics);
-  if (!compilation && is_refused_law(diagnostics)) {  // of slips that have no other
+  if (!compilation && is_refused_law(diagnostics)) {  // its slips have no other law
     Choices other = choices;
     other.decomposition = "velocity-free";
     return compiled_text(text, other, device);
@@ -126,8 +125,8 @@ compiler::Compilation compiled_text(const std::string& text, const Choices& choi
 
 double rounded(double value, ScalarType scalar) { return scalar == ScalarType::float64 ? value : double(float(value)); }
 
-// The velocity is the slope to this sample from the tool's last position, or from where the surface is behind a
-// contact: so that brake and motor make the network's own force.
+// The velocity is the slope to this sample from the tool's last position, or with a contact from that of the surface:
+// then brake and motor make the network's own force.
 template <class Scalar>
 void evaluate(DifferentialCase& one, const std::vector<double>& positions) {
   const compiler::UpdateLaw& law = one.compilation.law;
@@ -174,8 +173,8 @@ std::vector<double> reference_forces(const DifferentialCase& one) {
   return forces;
 }
 
-// What a spring, or a damper as backward Euler sees it, would answer to the largest move of a sample; the law subtracts
-// from it what slips do not hold [N].
+// The force of the stiffest spring, or damper as backward Euler sees it, under the largest move of a sample; the law
+// subtracts from such forces what slips do not hold [N].
 double largest_trial(const DifferentialCase& one) {
   const double period = one.compilation.law.sample_period;
   double stiffest = 0,
@@ -237,7 +236,8 @@ std::string departure_from_reference(const DifferentialCase& one) {
   for (std::size_t k = 0; k < expected.size(); ++k)
     scale = std::max({scale, std::abs(expected[k]), std::abs(one.evaluated[k].damping * one.motion[k].velocity)});
   const double added = one.compilation.certificate.added_damping;  // what is rendered is the network and this
-  // Of the modes what the law states, of the sum of their forces and of closed forms that subtract a few roundoffs.
+  // For the modes what the law states; for the sum of their forces, and for closed forms that subtract, a few
+  // roundoffs.
   const compiler::UpdateLaw& law = one.compilation.law;
   const double few = 32 * compiler::unit_roundoff(law.scalar);
   const double tolerance = law.relative_error_bound * scale + few * (scale + largest_trial(one));

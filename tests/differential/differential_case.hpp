@@ -29,8 +29,8 @@ struct DifferentialCase {
   std::vector<Answer> evaluated;  // one a sample
 };
 
-// Seeds give every scheme, state input, decomposition, rate, scalar and kind of device in changing company; the names
-// of classes are unique among seeds. Throws std::runtime_error where the compiler refuses the network.
+// Seeds give every scheme, state input, decomposition, rate, scalar and kind of device in varying combinations; the
+// names of classes are unique among seeds. Throws std::runtime_error where the compiler refuses the network.
 DifferentialCase differential_case(Family family, std::uint64_t seed);
 
 // Empty where the whole force of the law is that of its network, as an integrator has it that shares nothing with the

@@ -9,9 +9,9 @@ namespace {
 
 int certified_devices() { return static_cast<int>(repetitions(50, 2000)); }
 
-// A certified law would give out more energy than it took up: with ideal sensors the energy that motor, brake and
-// mechanics have taken up together is never below zero, the brake at either end of its tolerance, with jitter where the
-// certificate covers it, behind lags too.
+// If this failed, a certified law would give out more energy than it took up: with ideal sensors the energy that motor,
+// brake and mechanics have taken up together is never below zero, the brake at either end of its tolerance, with jitter
+// where the certificate covers it, behind lags too.
 TEST(CertifiedLoops, NeverGiveOutEnergy) {
   int certified = 0, by_hold = 0, lagging = 0;
   for (std::uint64_t seed = 1; certified < certified_devices(); ++seed) {
@@ -28,9 +28,9 @@ TEST(CertifiedLoops, NeverGiveOutEnergy) {
   EXPECT_GE(lagging, certified_devices() / 20);
 }
 
-// A certified law would give out more than the certificate states for an encoder with steps: nothing where friction
-// pays, f_c ≥ K Δ/2, and else no more than (K Δ/2 − f_c) a metre. That the bound is about something: with a fiftieth of
-// the friction some loops do give out energy.
+// If this failed, a certified law would give out more than the certificate states for an encoder with steps: nothing
+// where friction pays, f_c ≥ K Δ/2, and else no more than (K Δ/2 − f_c) a metre. That the bound is about something:
+// with a fiftieth of the friction some loops do give out energy.
 TEST(CertifiedLoops, GiveOutNoMoreThanFrictionLeavesUnpaid) {
   int certified = 0, gave_out = 0;
   for (std::uint64_t seed = 1; certified < certified_devices(); ++seed) {
@@ -44,7 +44,7 @@ TEST(CertifiedLoops, GiveOutNoMoreThanFrictionLeavesUnpaid) {
   EXPECT_GE(gave_out, certified_devices() / 40);
 }
 
-// A law would be stated for samples of one period on a device whose samples come early and late.
+// If this failed, a law would be stated for samples of one period on a device whose samples come early and late.
 TEST(CertifiedLoops, LeaveNoJitterOut) {
   int lagging = 0;
   for (std::uint64_t seed = 1; seed <= 3 * repetitions(100, 2000); ++seed) {

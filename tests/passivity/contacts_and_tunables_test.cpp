@@ -11,8 +11,8 @@ using namespace dashpot::compiler;
 
 int certified_surfaces() { return static_cast<int>(repetitions(25, 1000)); }
 
-// A tool that touches and lets go, on a device with no more damping than the certificate asks for, would give out
-// energy in some passive hand.
+// If this failed, a tool that touches and lets go, on a device with no more damping than the certificate asks for,
+// would give out energy in some passive hand.
 TEST(CertifiedContacts, NeverGiveOutEnergy) {
   int certified = 0, with_slips = 0;
   for (std::uint64_t seed = 1; certified < certified_surfaces(); ++seed) {
@@ -26,9 +26,9 @@ TEST(CertifiedContacts, NeverGiveOutEnergy) {
   EXPECT_GT(with_slips, certified / 10);
 }
 
-// While parameters change at any time and as far as their ranges go, a certified law would give out energy in some
-// passive hand, beyond what a jump of the force brings that a change could not keep; or such jumps would count for
-// much.
+// If this failed, a certified law whose parameters change at any time and as far as their ranges go would give out
+// energy in some passive hand, beyond what a jump of the force brings that a change could not avoid; or such jumps
+// would count for much.
 TEST(CertifiedTunables, NeverGiveOutEnergyWhateverIsSet) {
   int certified = 0, by_hold = 0, with_slips = 0, without_jumps = 0;
   for (std::uint64_t seed = 1; certified < certified_surfaces(); ++seed) {
@@ -45,8 +45,8 @@ TEST(CertifiedTunables, NeverGiveOutEnergyWhateverIsSet) {
   EXPECT_GE(without_jumps, certified - certified / 50);
 }
 
-// A law with slips, a contact or parameters would give out more than its certificate states for an encoder with steps;
-// or K would be far above what any loop shows, with friction for a five-hundredth of it.
+// If this failed, a law with slips, a contact or parameters would give out more than its certificate states for an
+// encoder with steps; or K would be far above what any loop shows, with friction for a five-hundredth of it.
 TEST(CertifiedSlipsContactsAndTunables, GiveOutNoMoreThanFrictionLeavesUnpaid) {
   int gave_out = 0, bounded = 0, touching = 0, tuned = 0, sliding = 0;
   for (std::uint64_t seed = 1; bounded < 2 * certified_surfaces(); ++seed) {

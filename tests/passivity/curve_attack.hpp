@@ -79,8 +79,8 @@ inline compiler::Compilation on(const Case& one, double damping,
   return std::move(*c);
 }
 
-// At its least: energy that has gone in, that which was stored at the beginning included, and where nothing is late
-// less what is stored; and the largest amount that was exchanged in a period.
+// The least of the energy that has gone in, with that stored at the beginning, and if nothing is late less what is
+// stored now; and the largest amount that was exchanged in a period.
 struct Balance {
   double least = 0, largest = 0;
 };

@@ -114,7 +114,8 @@ Balance balance_of(const CompiledCase& one, double damping, Random random, int s
 
 const MotorLimits& limits_of(const CompiledCase& one) { return one.compilation->certificate.limits; }
 
-// A spring pressed beyond what the motor gives would give out energy, or ask for more damping than one that never is.
+// If this failed, a spring pressed beyond what the motor gives would give out energy, or ask for more damping than one
+// that never is.
 TEST(MotorLimits, ClippedLinearLawsGiveOutNoEnergy) {
   int covered = 0, late = 0, lagging = 0, limited = 0;
   for (std::uint64_t seed = 1; covered < runs(); ++seed) {
@@ -134,7 +135,8 @@ TEST(MotorLimits, ClippedLinearLawsGiveOutNoEnergy) {
   EXPECT_GT(limited, covered / 2);
 }
 
-// The statement would not depend on what is proved: the same far below the damping that it asks for gives out energy.
+// If this failed, the statement would not depend on what is proved: the same far below the damping that it asks for
+// gives out energy.
 TEST(MotorLimits, ClippedLinearLawsNeedTheirDamping) {
   int tried = 0, gained = 0;
   for (std::uint64_t seed = 1; tried < runs() / 4; ++seed) {
@@ -147,7 +149,7 @@ TEST(MotorLimits, ClippedLinearLawsNeedTheirDamping) {
   EXPECT_GT(gained, tried / 3);
 }
 
-// A law that follows an estimate of the velocity would give out energy where it sheds.
+// If this failed, a law that follows an estimate of the velocity would give out energy where it sheds.
 TEST(MotorLimits, SheddingLawsWithAnEstimateGiveOutNoEnergy) {
   int covered = 0, late = 0, limited = 0;
   for (std::uint64_t seed = 1; covered < runs(); ++seed) {
@@ -165,7 +167,7 @@ TEST(MotorLimits, SheddingLawsWithAnEstimateGiveOutNoEnergy) {
   EXPECT_GT(limited, covered / 2);
 }
 
-// A slip that yields, or a contact, beyond what the motor gives would give out energy.
+// If this failed, a slip that yields, or a contact, beyond what the motor gives would give out energy.
 TEST(MotorLimits, SheddingSlipsAndContactsGiveOutNoEnergy) {
   int covered = 0, touching = 0, late = 0, limited = 0;
   for (std::uint64_t seed = 1; covered < runs(); ++seed) {
@@ -188,7 +190,8 @@ TEST(MotorLimits, SheddingSlipsAndContactsGiveOutNoEnergy) {
   EXPECT_GT(limited, covered / 2);
 }
 
-// Parameters that change while the motor is at its limit would give out energy, or what was shed would come back.
+// If this failed, parameters that change while the motor is at its limit would give out energy, or what was shed would
+// come back.
 TEST(MotorLimits, SheddingTunablesGiveOutNoEnergy) {
   int covered = 0, slipping = 0, limited = 0;
   for (std::uint64_t seed = 1; covered < runs() / 4; ++seed) {
@@ -209,8 +212,8 @@ TEST(MotorLimits, SheddingTunablesGiveOutNoEnergy) {
   EXPECT_GT(limited, covered / 2);
 }
 
-// Shedding would be free: the same far below the damping that it asks for gives out energy, where slips do not take it
-// up.
+// If this failed, shedding would be free: the same far below the damping that it asks for gives out energy, where slips
+// do not take it up.
 TEST(MotorLimits, SheddingSlipsNeedTheirDamping) {
   int tried = 0, gained = 0;
   for (std::uint64_t seed = 1; tried < runs() / 4; ++seed) {
@@ -264,8 +267,8 @@ double pressed_and_let_go(const std::string& structure, bool sheds) {
   return energy;
 }
 
-// What the motor cannot follow would be given back: a spring that is pressed while the motor is late takes nothing, and
-// gives all of ½ K u² back.
+// If this failed, what the motor cannot follow would be given back: a spring that is pressed while the motor is late
+// takes nothing, and gives all of ½ K u² back.
 TEST(MotorLimits, SlewGivesNothingBackThatItDidNotTake) {
   for (const char* structure : {R"("network": { "spring": "1 kN/m" })",
                                 R"("network": { "series": [{ "spring": "1 kN/m" }, { "damper": "1 kN s/m" }] })",
@@ -308,7 +311,8 @@ double pressed_softened_and_let_go(const std::string& structure, bool sheds) {
   return energy;
 }
 
-// What the motor never took in would be kept as the force of a softer spring, and come out over a longer way.
+// If this failed, what the motor never took in would be kept as the force of a softer spring, and come out over a
+// longer way.
 TEST(MotorLimits, SofteningGivesNothingBackThatWasShed) {
   const std::string of_spring = R"("parameters": { "K": { "value": 1e3, "tunable": true, "min": 100, "max": 1e3 } }, )";
   for (const std::string& structure : {of_spring + R"("network": { "spring": "K" })",
@@ -318,7 +322,8 @@ TEST(MotorLimits, SofteningGivesNothingBackThatWasShed) {
   }
 }
 
-// Commands of a law that sheds would be beyond what the motor can follow, or a law would be changed where it can.
+// If this failed, commands of a law that sheds would be beyond what the motor can follow, or a law would be changed
+// where it can.
 TEST(MotorLimits, CommandsStayWithinLimitAndSlew) {
   int shed = 0;
   for (std::uint64_t seed = 1; seed <= std::uint64_t(runs()); ++seed) {
@@ -354,8 +359,8 @@ TEST(MotorLimits, CommandsStayWithinLimitAndSlew) {
   EXPECT_GT(shed, runs());
 }
 
-// A puncture would cost more than the spring held, or the largest that is told would not be the largest: the motor
-// falls by ρT a period and the tool takes from every hold what it can, e²T/4x.
+// If this failed, a puncture would cost more than the spring held, or the largest that is told would not be the
+// largest: the motor falls by ρT a period and the tool takes from every hold what it can, e²T/4x.
 TEST(MotorLimits, PuncturesWithinTheSlewCostNoMoreThanTheyRelease) {
   int tried = 0;
   for (std::uint64_t seed = 1; seed <= std::uint64_t(runs()); ++seed) {

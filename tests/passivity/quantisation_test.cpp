@@ -36,8 +36,8 @@ double measured_gain(const CompiledCase& one, int samples) {
   return sum;
 }
 
-// The stated bound would be below what some error of the encoder does to the motor; or far above it, where the pulse
-// has died away within the samples that are looked at.
+// If this failed, the stated bound would be below what some error of the encoder does to the motor; or far above it,
+// where the pulse has died away within the samples that are looked at.
 TEST(QuantisationGain, IsThatOfTheLaw) {
   int compared = 0, died_away = 0;
   for (std::uint64_t seed = 1; compared < 60; ++seed) {
@@ -78,8 +78,8 @@ std::optional<Compilation> held_case(std::uint64_t seed, SourceFile& source) {
   return compile(source, choices, std::nullopt, diagnostics);
 }
 
-// What is stated for slips would be below what an error of the encoder does while they hold, or above it once that has
-// died away, in trees and in others.
+// If this failed, what is stated for slips would be below what an error of the encoder does while they hold, or above
+// it once that has died away, in trees and in others.
 TEST(QuantisationGain, OfSlipsIsThatOfAllThatHold) {
   int compared = 0, died_away = 0, networks = 0;
   for (std::uint64_t seed = 1; compared < 100; ++seed) {

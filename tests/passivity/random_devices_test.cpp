@@ -49,7 +49,7 @@ double scanned(const NeededDamping& needed, const std::vector<double>& rates, do
   return largest;
 }
 
-// The certificate would promise too little on a device with delay, lag and filter, or ask for too much.
+// If this failed, the certificate would promise too little on a device with delay, lag and filter, or ask for too much.
 TEST(RandomDevices, TheBoundMeetsAScan) {
   int compared = 0;
   for (std::uint64_t seed = 1; compared < compared_devices(); ++seed) {

@@ -94,7 +94,7 @@ Exchange exchange_of(const Holds& holds, Random& random, int samples) {
   return exchange;
 }
 
-// Some network with slips would give out energy under a certificate.
+// If this failed, some network with slips would give out energy under a certificate.
 TEST(SlipHolds, GiveOutNoEnergy) {
   int certified = 0, touching = 0, late = 0, writing_late = 0, changing = 0;
   for (std::uint64_t seed = 1; certified < certified_slips(); ++seed) {
@@ -118,8 +118,8 @@ TEST(SlipHolds, GiveOutNoEnergy) {
   EXPECT_GT(changing, certified / 20);
 }
 
-// The steady or the ramped law would give out energy: their compensation by an estimate, the memory of that, the coil,
-// the tolerance or the jitter would not be allowed for.
+// If this failed, the steady or the ramped law would give out energy: their compensation by an estimate, the memory of
+// that, the coil, the tolerance or the jitter would not be allowed for.
 TEST(SlipHolds, SteadyAndRampedGiveOutNoEnergy) {
   const int wanted = static_cast<int>(repetitions(40, 1000));  // of each
   int steady = 0, ramped = 0, lagging = 0, earning = 0;
@@ -139,7 +139,8 @@ TEST(SlipHolds, SteadyAndRampedGiveOutNoEnergy) {
   EXPECT_GT(earning, wanted / 2);
 }
 
-// In closed loop with an amplifier that lags, in some passive hand, a certified law would give out energy.
+// If this failed, in closed loop with an amplifier that lags, in some passive hand, a certified law would give out
+// energy.
 TEST(SlipHolds, LoopsThatLagGiveOutNoEnergy) {
   int certified = 0;
   for (std::uint64_t seed = 1; certified < certified_slips() / 3; ++seed) {
@@ -152,7 +153,8 @@ TEST(SlipHolds, LoopsThatLagGiveOutNoEnergy) {
   }
 }
 
-// The bound would ask for several times what is needed: at 0.3 of it a simple motion takes energy out of most laws.
+// If this failed, the bound would ask for several times what is needed: at 0.3 of it a simple motion takes energy out
+// of most laws.
 TEST(SlipHolds, GiveOutEnergyFarBelowTheBound) {
   int certified = 0, gained = 0;
   for (std::uint64_t seed = 1; certified < certified_slips(); ++seed) {
@@ -168,8 +170,9 @@ TEST(SlipHolds, GiveOutEnergyFarBelowTheBound) {
   EXPECT_GT(gained, certified / 2);
 }
 
-// Laws with slips would give out energy in closed loop, held by passive hands: the brake at either end of its
-// tolerance, with jitter where the proof covers it. Without a coil's lag: a certificate speaks of a brake that is on.
+// If this failed, laws with slips would give out energy in closed loop, held by passive hands: the brake at either end
+// of its tolerance, with jitter where the proof covers it. Without a coil's lag: a certificate speaks of a brake that
+// is on.
 TEST(SlipHolds, InPassiveHandsGiveOutNoEnergy) {
   int certified = 0, steady = 0, ramped = 0;
   for (std::uint64_t seed = 1; certified < certified_slips() / 3; ++seed) {

@@ -176,11 +176,11 @@ int destabilised_with(double share) {
   return destabilised;
 }
 
-// The certificate would ask for damping that no passive hand makes necessary.
+// If this failed, the certificate would ask for damping that no passive hand makes necessary.
 TEST(Tightness, NineTenthsOfTheMinimumAreTooLittle) { EXPECT_GE(destabilised_with(0.9), 90); }
 
-// The hands above would be none, or what they do a mistake of the test: with the minimum, and a thousandth of it, no
-// hand makes a loop grow.
+// If this failed, the hands above would be none, or what they do a mistake of the test: with the minimum, and a
+// thousandth of it, no hand makes a loop grow.
 TEST(Tightness, TheMinimumIsEnough) { EXPECT_EQ(destabilised_with(1.001), 0); }
 
 }  // namespace

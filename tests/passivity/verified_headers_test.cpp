@@ -70,9 +70,9 @@ std::string with_elements(const std::string& elements) {
   return R"({"dashpot": 1, "name": "known", "motion": "translation", )" + elements + "}";
 }
 
-// Sound headers would be refused: yield forces summed in another order, a brake that has all the dampers of a cut, a
-// relaxation that is over within a sample beside a slow one, a motor behind a lag that has nothing to make, or whose
-// bound is a sum sample by sample, slips that are no tree in one of several ports.
+// If this failed, sound headers would be refused: yield forces summed in another order, a brake that has all the
+// dampers of a cut, a relaxation that is over within a sample beside a slow one, a motor behind a lag that has nothing
+// to make, or whose bound is a sum sample by sample, slips that are no tree in one of several ports.
 TEST(VerifiedHeaders, OfLawsThatWereRefused) {
   const std::string networks[] = {
       R"("network": {"series": [{"spring": 100}, {"parallel": [{"slip": 0.1}, {"slip": 0.2}, {"slip": 0.3}]}]})",
@@ -113,8 +113,8 @@ TEST(VerifiedHeaders, OfLawsThatWereRefused) {
   EXPECT_EQ(faults(with_elements(slow), lags, by_sample, written), "");
 }
 
-// Sound headers would be refused: an element called as `verify` calls numbers without a name, a port whose name begins
-// one of the law's own constants, two ports whose constants would be called alike.
+// If this failed, sound headers would be refused: an element called as `verify` calls numbers without a name, a port
+// whose name begins one of the law's own constants, two ports whose constants would be called alike.
 TEST(VerifiedHeaders, OfNamesThatWereMistaken) {
   const std::string networks[] = {
       R"("parameters": {"K": {"value": 12, "tunable": true, "min": 0, "max": 100}},

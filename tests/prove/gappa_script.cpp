@@ -83,7 +83,7 @@ class Script {
 
   // name = what is computed; name_real = the same without rounding, and with constants that were not rounded either.
   void define(const std::vector<Statement>& program, std::set<std::string>& defined) {
-    // What is below the threshold is within the box too: the guard takes part in no bound.
+    // A state below the threshold is within the box too, so that the guard does not affect any bound.
     static const std::regex guard("\\bflush\\(");
     const bool is_update = &program == &law_.update;
     for (const ScalarAssignment& a : scalar_program(law_, program)) {
@@ -143,13 +143,14 @@ class Script {
       throw std::logic_error("the modes are no part of the sum that the certificate speaks of");
   }
 
-  // Of what the certificate states: the force's own operations, and what is left beside that and the modes' own errors.
+  // Parts of what the certificate states: that of the force's own operations, and what is left beside it and the modes'
+  // own errors.
   double own_share() const { return 8 * compiler::unit_roundoff(law_.scalar); }
   double share_of_sums() const {
     return c_.certificate.energy.rounding_share - law_.relative_error_bound - own_share();
   }
 
-  // An error decays at the rate α: what a step may add is α of what the banner states for all of them.
+  // An error decays at the rate α, so that one step may add α times what the banner states for all steps.
   void bound_states() {
     for (const Statement& statement : law_.update)
       for (std::size_t place = 0; place < law_.variables[statement.target].size; ++place) {
@@ -164,8 +165,8 @@ class Script {
       }
   }
 
-  // A force and what it loses go together, which intervals show where they are short: of the force, and of what drives
-  // it.
+  // A force and its loss go together, which intervals show only if they are short: those of the force and of what
+  // drives it are split.
   std::string case_by_case(const std::string& state) const {
     std::string ranges = state + " in 8";
     for (const char* drive : {"sampled_position_change_", "sampled_velocity_"})

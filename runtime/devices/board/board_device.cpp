@@ -152,8 +152,8 @@ bool basic_board_device<Axes>::receive() noexcept {
   return link_.receive([this](const board::frame& from) { take(from); });
 }
 
-// A board that runs freely has gone on since start(), until the stream was full: even the newest that waits may be old.
-// Not without end.
+// A board that runs freely has sent samples since start(), until the stream was full: even the newest that waits may be
+// old. The number of reads is bounded.
 template <unsigned Axes>
 void basic_board_device<Axes>::drop_backlog() noexcept {
   for (int rounds = 64; rounds > 0 && receive(); --rounds) {}
@@ -181,7 +181,7 @@ void basic_board_device<Axes>::take_configured(const board::frame& from) noexcep
   ++configures_answered_;
 }
 
-// The loop knows samples by numbers that only grow: where the board begins anew, by the next.
+// The loop's sample numbers only grow: if the board begins to count anew, the loop's go on with the next.
 template <unsigned Axes>
 void basic_board_device<Axes>::take_sample(const board::frame& from) noexcept {
   const std::uint32_t before = samples_.newest();

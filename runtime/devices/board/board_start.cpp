@@ -159,8 +159,8 @@ bool basic_board_device<Axes>::configure(std::string& error) {
   return false;
 }
 
-// Every configure that was repeated makes the board idle once more, with another number of stops: a reset between two
-// of their answers would be undone. A board that lost some is not waited for without end.
+// Every repeated configure makes the board idle once more and raises its number of stops: a reset sent between two of
+// their answers would be undone. The wait for answers that were lost is bounded.
 template <unsigned Axes>
 void basic_board_device<Axes>::hear_of_every_configuration() {
   const std::uint64_t enough = board::monotonic_nanoseconds() + longest_patience * nanoseconds_per_millisecond;

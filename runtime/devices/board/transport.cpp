@@ -33,7 +33,8 @@ transport::~transport() { close(); }
 std::size_t transport::read(std::uint8_t* into, std::size_t room) noexcept {
   if (closed_ || room == 0) return 0;
   std::ptrdiff_t result = ::read(descriptor_, into, room);
-  // An empty datagram is no end of what waits behind it. Not without end: somebody may send nothing else.
+  // An empty datagram does not mean that nothing waits behind it. The tries are bounded: somebody may send nothing
+  // else.
   for (int more = 15; more > 0 && result == 0 && kind_ == kind::datagram_socket; --more)
     result = ::read(descriptor_, into, room);
   return moved(result, kind_ != kind::datagram_socket);

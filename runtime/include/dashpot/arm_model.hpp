@@ -43,7 +43,7 @@ using arm_output = std::enable_if_t<noexcept(commands<typename M::scalar, M::axe
 
 }  // namespace model_claim
 
-// Of a class that does not say: one.
+// False for a class that does not say how many axes it has: it has one.
 template <class Model>
 inline constexpr bool has_two_axes = is_detected<model_claim::two_axes, Model>;
 

@@ -1,5 +1,5 @@
 // model_table.hpp for laws of two axes: an emitted class behind plain functions, which a library exports as
-// dashpot_arm_model(). Brakes that the class has not are commanded 0.
+// dashpot_arm_model(). Brakes that the class does not have are commanded 0.
 #pragma once
 
 #include <dashpot/arm_model.hpp>

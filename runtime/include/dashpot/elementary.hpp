@@ -7,8 +7,8 @@ namespace dashpot {
 
 namespace detail {
 
-// 1/n at [n]. Outside of functions, so that no compiler copies it to the stack, by a memcpy that may not be there. With
-// its bound: without, clang takes no element of a template for a constant.
+// 1/n at [n]. Outside of functions, so that no compiler copies it to the stack, by a memcpy that may not be there. The
+// bound is written out, since without it clang does not treat the template's elements as constants.
 template <class Scalar>
 inline constexpr Scalar reciprocal_of[18] = {
     Scalar(0),      Scalar(1),      Scalar(1) / 2,  Scalar(1) / 3,  Scalar(1) / 4,  Scalar(1) / 5,

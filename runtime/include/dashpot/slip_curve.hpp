@@ -87,7 +87,7 @@ class slip_curve_reader {
     return Way::value(end) + curve_.end_slope * (at - Way::at(end));
   }
 
-  // From the nearer corner, never beyond either.
+  // Interpolates from the nearer corner, never beyond either.
   static constexpr Scalar between(const Corner& a, const Corner& b, Scalar at) noexcept {
     if (Way::value(a) == Way::value(b)) return Way::value(a);
     const Scalar before = at - Way::at(a), after = Way::at(b) - at;
@@ -133,8 +133,7 @@ constexpr int merge_curves(const slip_curve<Scalar>& first, const slip_curve<Sca
   return count;
 }
 
-// Puts a point of the curve where it belongs, `count` being how many corners there are. Returns how many there then
-// are.
+// Inserts a point of the curve in order among the `count` corners. Returns how many there then are.
 template <class Way, class Scalar>
 constexpr int insert_corner(slip_corner<Scalar>* corners, int count, const slip_corner<Scalar>& corner) noexcept {
   int place = count;

@@ -3,9 +3,9 @@
 //
 // Over a sample the linear part answers like springs between the ends of the slips, the tool and the ground, and forces
 // held at them. The inner ends move to where Φ = Σ ½ c (x_i − x_j)² + Σ p_i x_i + Σ Y |x_a − x_b| is least. A pattern
-// says of each slip whether it holds or to which side it gives way. With the pattern given, Φ is least where a linear
-// system says; on the way there the first slip that would turn back holds; and where none does, the first group of ends
-// that is pulled harder than its slips hold gives way. Each pattern's least value is below the one before: none comes
+// says of each slip whether it holds or to which side it slides. For a given pattern the least Φ follows from a linear
+// system. On the way there the first slip that would turn back is made to hold; if none does, the first group of ends
+// that is pulled harder than its slips hold is let go. Each pattern's least value is below the one before: none comes
 // twice, and no more are tried than there are. The pattern of the sample before comes first.
 //
 // Systems are solved without a subtraction (Grassmann, Taksar & Heyman 1985), so that stiff and soft parts do not blur,
@@ -27,7 +27,7 @@ struct slip_link {
   Scalar highest;  // [N]
 };
 
-// Patterns that can hold: of a contact two, of a slip three.
+// The number of patterns: a contact has two states, a slip three.
 template <class Scalar>
 constexpr int slip_network_patterns(const slip_link<Scalar>* links, int slips) noexcept {
   int patterns = 1;
@@ -161,7 +161,7 @@ class slip_network {
       if (group_[i] == from) group_[i] = to;
   }
 
-  // Where Φ is least with this pattern.
+  // Finds where Φ is least with this pattern.
   constexpr void aim() noexcept {
     join();
     gather();
@@ -223,7 +223,7 @@ class slip_network {
       if (j != i) link(i, j) += share * link(k, j);
   }
 
-  // A part that nothing but slips holds, and that they do not hold in balance, moves until one of them does.
+  // A part that is tied to nothing but sliding slips, whose forces do not balance, moves on until one of them holds.
   constexpr void place(int k) noexcept {
     target_[k] = moved_[k];
     if (pivot_[k] == Scalar(0)) {
@@ -257,7 +257,7 @@ class slip_network {
 
   constexpr bool is_contact(int k) const noexcept { return links_[k].lowest == Scalar(0); }
 
-  // Towards the target, as far as no slip turns back: true where that is all the way.
+  // Moves towards the target until a slip would turn back: true if none does on the whole way.
   constexpr bool advance() noexcept {
     if (ray_ < nodes_) point_along_ray();
     int first = slips_;
@@ -298,7 +298,7 @@ class slip_network {
       if (is_free(i)) target_[i] += moved_[i];
   }
 
-  // Forces that the linear part and the slips that give way leave at each inner end.
+  // The sum of the forces of the linear part and of the sliding slips at each inner end.
   constexpr void find_pulls() noexcept {
     for (int i = 0; i < nodes_; ++i) {
       pull_[i] = held_[i];
@@ -326,8 +326,8 @@ class slip_network {
     pull_weight_[i] += size(force);
   }
 
-  // True after letting go what is pulled harder than the slips around it hold: some ends of a group, in one piece, away
-  // from the others, in one piece too. What is held by tool or ground stays, else the last end.
+  // Lets go ends of a group that are pulled harder than the slips around them hold, and returns true; false if there
+  // are none. They and the rest of the group are each connected. The rest has the tool or ground, or else the last end.
   constexpr bool give_way() noexcept {
     find_pulls();
     for (int group = 0; group < nodes_ + 2; ++group) {

@@ -145,7 +145,7 @@ class slip_tree {
   using Range = slip_range<Scalar>;
   using Curve = slip_curve<Scalar>;
 
-  // How a block and the ends of a curve answer, read in either way.
+  // A block, and the slopes at the ends of a curve, read by elongation (in parallel) or by force (in series).
   struct Parallel : by_elongation<Scalar> {
     static constexpr Scalar end_slope(const Node& node) noexcept { return node.stiffness; }
     static constexpr Scalar of_block(const Node& block, Scalar held, Scalar elongation) noexcept {
@@ -171,7 +171,7 @@ class slip_tree {
     return root.hold == slip_hold::affine ? root.stiffness * change + root.force : root.force;
   }
 
-  // Where the root's curve crosses 0, to within what a reading of it loses.
+  // Where the root's curve crosses 0, to the rounding of reading it.
   constexpr Scalar free_elongation() const noexcept {
     const Range range = slip_curve_at<Series>(curve<Series>(0), Scalar(0));
     return range.open_low ? range.high : range.low;
@@ -205,7 +205,7 @@ class slip_tree {
     if (node.kind == slip_part::series) parts_[k].corners = mark_rest(curve<Parallel>(k), corners);
   }
 
-  // In series the point where the block rests is one of the curve too.
+  // In series the point where the block has no elongation is added to the curve.
   template <class Way>
   static constexpr Curve with_block(Curve sum, const Node& block, Scalar held, slip_part kind,
                                     Corner* corners) noexcept {
@@ -222,7 +222,7 @@ class slip_tree {
             sum.is_open};
   }
 
-  // The sum of two curves, `to` being where the first one lies and the sum shall.
+  // The sum of two curves; `to` is where the first one is stored, and then the sum.
   template <class Way>
   constexpr Curve with(const Curve& sum, const Curve& other, Corner* to) noexcept {
     const Corner* from = sum.count == 0 ? other.corners : merged_;
@@ -269,7 +269,8 @@ class slip_tree {
     return {elongation, elongation, false, false, true, false};
   }
 
-  // What is left over goes to those that may give way at this force, in turn; all but the last as far as they can.
+  // The elongation that is left over goes to the parts that slide at this force, in turn; all but the last get as much
+  // as they can.
   constexpr void place_rest(int k, Scalar rest, Scalar force) noexcept {
     bool is_placed = false;
     for (int i = nodes_[k].first_child; i < nodes_[k].first_child + nodes_[k].child_count; ++i) {
@@ -328,7 +329,8 @@ class slip_tree {
     become(parts_[k], slip_hold::affine, stiffness, Scalar(1) / stiffness, force);
   }
 
-  // A constant force wins; rigid parts drop out; 1/g = Σ 1/g_i, π = g Σ π_i/g_i; all rigid → rigid.
+  // If a part has a constant force, that is the force of all; rigid parts drop out; 1/g = Σ 1/g_i, π = g Σ π_i/g_i; all
+  // rigid → rigid.
   constexpr void add_up_series(int k) noexcept {
     int affine = 0, last = 0;
     Scalar compliance = 0, weighted = 0;
@@ -348,7 +350,7 @@ class slip_tree {
     become(parts_[k], slip_hold::affine, stiffness, compliance, weighted * stiffness);
   }
 
-  // The child that holds a constant force, by choice the one that takes the rest; 0 for none.
+  // A child that holds a constant force, preferably the one that takes the rest; 0 for none.
   constexpr int constant_child(int k) const noexcept {
     int found = 0;
     for (int i = nodes_[k].first_child; i < nodes_[k].first_child + nodes_[k].child_count; ++i)

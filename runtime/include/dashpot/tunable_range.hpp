@@ -5,7 +5,7 @@ namespace dashpot {
 
 template <class Scalar>
 struct tunable_range {
-  Scalar value;  // to begin with
+  Scalar value;  // the initial one
   Scalar min;
   Scalar max;
 };

@@ -78,8 +78,8 @@ class vector {
     *reinterpret_cast<in_memory*>(values + i) = v.value_;
   }
 
-  // The same, read from memory once. Where an operation can read memory itself but overwrites its other operand, SSE2,
-  // compilers read anew for every use, and the reads are what a loop of many states waits for.
+  // The same, read from memory once. With SSE2, where an operation can read memory itself but overwrites its other
+  // operand, compilers read again for every use, and these reads limit a loop of many states.
   static vector in_register(vector v) noexcept {
 #if defined(__GNUC__) && defined(__SSE2__) && !defined(__AVX__)
     __asm__("" : "+x"(v.value_));
@@ -115,7 +115,7 @@ class vector {
     return vector(packed_tag(), nothing == packed_type{} ? vector(Scalar(1)).value_ : packed_type{});
   }
 
-  // Of a table, at every place of `v` the value whose number stands there.
+  // Looks up a table: at every place, the value whose index is in `v` there.
   static vector pick(const Scalar* table, vector v) noexcept {
     if constexpr (count > 1) {
       packed_type picked{};

@@ -111,7 +111,7 @@ class Attack {
     q_ = q_ + by;
     for (Network& network : case_.networks) network.move(depth_of(network, q_));
   }
-  // Beyond work and storage of one step: what would have come from nowhere.
+  // The energy that one step would create: by how much storage rises beyond the work done.
   double created(const Pair<double>& by) const {
     Attack next = *this;
     std::vector<Network> kept = case_.networks;

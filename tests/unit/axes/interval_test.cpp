@@ -28,7 +28,7 @@ Digits member(Random& random, const Interval& a) {
   return ::testing::AssertionFailure() << value << " is not in [" << a.low << ", " << a.high << "]";
 }
 
-// Nothing that is proved over a workspace would be, if an operation lost a result.
+// If an operation lost a result, nothing that is stated over a workspace would be proved.
 TEST(Interval, EveryOperationEnclosesItsResults) {
   Random random(1);
   for (int i = 0; i < 20000; ++i) {

@@ -168,8 +168,8 @@ TEST(ModelRunner, EstimatesTheVelocityAsDescribed) {
   }
 }
 
-// Of an estimator that times the encoder's edges: a clock that is cut short, or wraps within the run, would make a
-// speed of what is none.
+// With an estimator that times the encoder's edges, a clock that is cut short, or wraps within the run, would show a
+// speed that is not there.
 TEST(ModelRunner, TimesEdgesByTheWholeClockAndOverItsWrap) {
   velocity_description timed;
   timed.estimator = estimator_kind::inverse_time;

@@ -69,7 +69,7 @@ TEST(ArmSupervisor, LimitsEachMotorAndBrakeByItsOwnLimit) {
   expect_applied(board, {{-0.3F, 0.1F}, {0, 0.03F}});
 }
 
-// One number that is none makes the whole command one: half of it would push a tip sideways.
+// One NaN or infinite number makes the whole command invalid: half of it would push a tip sideways.
 TEST(ArmSupervisor, StopsAllOfItAtOneBadNumber) {
   for (unsigned bad = 0; bad < arm_axes + most_arm_brakes; ++bad) {
     arm_command_message command = {{0.1F, 0.1F}, {0.01F, 0.01F}};
@@ -183,7 +183,7 @@ TEST(ArmBoardDevice, UnwrapsEachCounter) {
   EXPECT_TRUE(wrapped);
 }
 
-// A number that is none, of any motor or brake, must bring all of them to rest.
+// A NaN or infinite number for any motor or brake must bring all of them to rest.
 TEST(ArmBoardDevice, SendsTheSafeCommandInPlaceOfABadOne) {
   for (unsigned bad = 0; bad < arm_axes + most_arm_brakes; ++bad) {
     arm_session with(described_arm_board());
@@ -211,7 +211,7 @@ std::string outcome(const Described& described, const basic_board_facts<Plant::a
   return started ? "started" : error;
 }
 
-// Without a word a host would wait for an answer that never comes, or drive half of an arm.
+// Without a message about it a host would wait for an answer that never comes, or drive half of an arm.
 TEST(ArmBoardStart, NamesTheAxesThatDiffer) {
   EXPECT_EQ(outcome<test_plant>(described_arm_board(), facts_of_board()),
             "the board has one axis, the device file two");

@@ -94,7 +94,7 @@ TEST(BoardDevice, DeliversCommands) {
   EXPECT_EQ(with.device.newest_sample().command_sequence, 0U);
 }
 
-// A number that is none must stop the motor at once, and the loop must hear of it.
+// A NaN or infinite command must stop the motor at once, and the loop must hear of it.
 TEST(BoardDevice, SendsTheSafeCommandInPlaceOfABadOne) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
     session with;

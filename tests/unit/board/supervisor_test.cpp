@@ -211,8 +211,8 @@ TEST(Supervisor, ConfigureStopsWhateverRuns) {
   expect_applied(board, 1.0F, 20.0F);
 }
 
-// Every comparison with NaN is false, and no speed is beyond a negative limit's absence: taken for "none", a limit that
-// was meant would be off.
+// Every comparison with NaN is false, and a negative limit might be taken for "none": a limit that was meant would then
+// be off.
 TEST(Supervisor, RefusesASpeedLimitThatIsNone) {
   for (const controller who : {controller::host, controller::own_model}) {
     for (const float bad : {nan, -0.5F, infinite}) {

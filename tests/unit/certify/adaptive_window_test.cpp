@@ -33,8 +33,8 @@ double need_of_fixed_windows(const MotorConstants& motor, SampledLoop loop) {
   return most;
 }
 
-// An entry of the tables would not be proved, or be proved with a thousandth less, or be above what is known without
-// it, or below what a window needs that never changes.
+// If this failed, an entry of the tables would not be proved, or be proved with a thousandth less, or be above what is
+// known without it, or below what a window needs that never changes.
 TEST(AdaptiveWindow, EveryEntryIsProved) {
   unsigned entries = 0;
   for (const bool best_fit : {false, true})
@@ -54,7 +54,7 @@ TEST(AdaptiveWindow, EveryEntryIsProved) {
   EXPECT_EQ(entries, 240u);
 }
 
-// The factors would not be the least that semidefinite programming gives.
+// If this failed, the factors would not be the least that semidefinite programming gives.
 TEST(AdaptiveWindow, KnownFactors) {
   const auto expect = [](bool best_fit, double gain, unsigned delay, unsigned longest, double known, double digits) {
     SCOPED_TRACE(::testing::Message() << best_fit << " " << gain << " " << delay << " " << longest);
@@ -80,7 +80,7 @@ TEST(AdaptiveWindow, KnownFactors) {
   EXPECT_NEAR(window_storage(adaptive_loop(1, 2), -1)->factor, 25.0 / 24, 4e-6);
 }
 
-// A storage function of one window alone, the longest, would pass for one of all.
+// If this failed, a storage function of one window alone, the longest, would pass for one of all.
 TEST(AdaptiveWindow, EveryWindowIsLookedAt) {
   for (const double gain : {1.0, -1.0}) {
     const SampledLoop fixed = differencing_loop(0.001, 8);
@@ -91,7 +91,8 @@ TEST(AdaptiveWindow, EveryWindowIsLookedAt) {
   }
 }
 
-// Beyond the tables more than γ would be asked for, or less, or no storage function be told that is known.
+// If this failed, beyond the tables more than γ would be asked for, or less, or no storage function be told that is
+// known.
 TEST(AdaptiveWindow, BeyondTheTables) {
   SampledLoop lagging = adaptive_loop(0.001, 8);
   lagging.amplifier_lag = 0.0002;
@@ -120,8 +121,8 @@ MotorConstants random_motor_with_few_modes(testing::Random& random, double sampl
   return motor;
 }
 
-// The whole motor's storage function would not prove the sum of both needs, or a tenth of it could be left out, or
-// jitter cost anything but its share.
+// If this failed, the whole motor's storage function would not prove the sum of both needs, or a tenth of it could be
+// left out, or jitter cost anything but its share.
 TEST(AdaptiveWindow, AddsUpWithWhatPositionDrives) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
@@ -182,8 +183,8 @@ double least_energy(const MotorConstants& motor, const SampledLoop& loop, double
   return least;
 }
 
-// Some motion and some choice of windows would take energy out of a loop with the damping that is stated; and with four
-// fifths of it no motion that is tried would.
+// If this failed, some motion and some choice of windows would take energy out of a loop with the damping that is
+// stated; and with four fifths of it no motion that is tried would.
 TEST(AdaptiveWindow, NoMotionTakesEnergyOut) {
   unsigned taken_with_less = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
@@ -203,7 +204,8 @@ TEST(AdaptiveWindow, NoMotionTakesEnergyOut) {
   EXPECT_GT(taken_with_less, 30u);
 }
 
-// Nothing would be stated of an estimate that drives states, or less than the largest response at any frequency needs.
+// If this failed, nothing would be stated of an estimate that drives states, or less than the largest response at any
+// frequency needs.
 TEST(AdaptiveWindow, MayDriveStates) {
   SampledLoop loop = adaptive_loop(0.001, 8);
   MotorConstants motor = damper_motor(-5);

@@ -22,7 +22,8 @@ Cut cut_of(const std::string& network) {
   return cut;
 }
 
-// A network that touches the tool through springs only would not need half of their sum, whatever is behind them.
+// If this failed, a network that touches the tool through springs only would not need half of their sum, whatever is
+// behind them.
 TEST(Cut, OfSpringsAtTheTool) {
   const Cut cut = cut_of(R"({ "parallel": [
       { "series": [ { "spring": 300 }, { "parallel": [ { "slip": 2 }, { "damper": 7 } ] } ] },
@@ -31,7 +32,7 @@ TEST(Cut, OfSpringsAtTheTool) {
   EXPECT_EQ(to_double(cut.damping), 0);
 }
 
-// The softest place of a series would not decide.
+// If this failed, the softest place of a series would not decide.
 TEST(Cut, TakesTheLeastOfASeries) {
   const Cut cut = cut_of(R"({ "series": [ { "spring": 900 }, { "parallel": [ { "slip": 2 }, { "spring": 80 } ] },
                                           { "parallel": [ { "slip": 1 }, { "damper": 0.5 } ] }, { "slip": 4 } ] })");
@@ -41,7 +42,7 @@ TEST(Cut, TakesTheLeastOfASeries) {
   EXPECT_EQ(to_double(soft.stiffness), 50);
 }
 
-// The closed form of a Maxwell element, (k/λh) tanh(λh/2), would not be its part of a cut.
+// If this failed, the closed form of a Maxwell element, (k/λh) tanh(λh/2), would not be its part of a cut.
 TEST(Cut, OfAMaxwellElement) {
   const Cut cut = cut_of(R"({ "series": [ { "spring": 600 }, { "damper": 0.4 }, { "slip": 1 } ] })");
   EXPECT_NEAR(to_double(cut.stiffness), 0.4 / 0.001 * std::tanh(600 / 0.4 * 0.001 / 2), 1e-12);
@@ -55,7 +56,8 @@ TEST(Cut, OutsideTreesNoSlipCrosses) {
   EXPECT_NEAR(to_double(cut.stiffness), 80, 1e-12);
 }
 
-// A late or lagging loop would be granted the bound of a prompt one, or not be given theory's (1 + n)² of a hold.
+// If this failed, a late or lagging loop would be granted the bound of a prompt one, or not be given theory's (1 + n)²
+// of a hold.
 TEST(Lateness, CountsSamplesAndLag) {
   SampledLoop loop = plain_loop(0.001);
   EXPECT_NEAR(lateness(loop), 1, 1e-13);

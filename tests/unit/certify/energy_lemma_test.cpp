@@ -28,7 +28,7 @@ TEST(EnergyLemma, HoldsForRoundedConstants) {
   }
 }
 
-// A step stiffness that is too small by a thousandth would pass for a tissue.
+// If this failed, a step stiffness that is too small by a thousandth would pass for a tissue.
 TEST(EnergyLemma, SeesWhatIsMissing) {
   MotorConstants motor = spring_motor(0);
   add_maxwell(motor, 1000, 0.001, 0.001, true);
@@ -38,7 +38,7 @@ TEST(EnergyLemma, SeesWhatIsMissing) {
   EXPECT_NEAR(lemma.shortfall, 10, 0.01);
 }
 
-// Modes that the estimate drives do not obey the lemma and would be said to.
+// If this failed, modes that the estimate drives, which do not obey the lemma, would be said to.
 TEST(EnergyLemma, DoesNotApplyToVelocityDrivenModes) {
   MotorConstants motor;
   add_maxwell(motor, 1000, 5, 0.001, false);

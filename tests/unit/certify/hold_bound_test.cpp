@@ -10,7 +10,7 @@ namespace {
 
 using dashpot::testing::Random;
 
-// The two certificates would disagree where both apply.
+// If this failed, the two certificates would disagree where both apply.
 TEST(HoldBound, MeetsTheSupremumOnRandomNetworks) {
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
     SCOPED_TRACE(seed);
@@ -28,7 +28,7 @@ TEST(HoldBound, MeetsTheSupremumOnRandomNetworks) {
   }
 }
 
-// A jittery loop would be promised what only a punctual one keeps.
+// If this failed, a jittery loop would be promised what only a punctual one keeps.
 TEST(HoldBound, CountsTheLongestHold) {
   SampledLoop loop = plain_loop(0.001);
   loop.jitter = 0.0005;
@@ -38,7 +38,7 @@ TEST(HoldBound, CountsTheLongestHold) {
   EXPECT_GE(Rational(bound.needed), Rational(500) * (Rational(0.001) + Rational(0.0005)));
 }
 
-// A certificate without a condition would be handed out where one of its conditions fails.
+// If this failed, a certificate without a condition would be handed out where one of its conditions fails.
 TEST(HoldBound, GivesWayToTheSampledOne) {
   SampledLoop late = plain_loop(0.001), lagging = plain_loop(0.001);
   late.delay_samples = 1;
@@ -49,7 +49,7 @@ TEST(HoldBound, GivesWayToTheSampledOne) {
   EXPECT_EQ(passivity_bound(std::nullopt, plain_loop(0.001)).proof, Proof::none);
 }
 
-// Late by n samples, β would not count 1 + 2n times, or the longest hold not as before.
+// If this failed, β would not count 1 + 2n times with n samples of delay, or the longest hold not as before.
 TEST(HoldBound, CountsTheDelay) {
   for (const unsigned delay : {1u, 2u, 5u}) {
     SampledLoop loop = plain_loop(0.001);
@@ -62,8 +62,8 @@ TEST(HoldBound, CountsTheDelay) {
   }
 }
 
-// Nothing would be proved where samples stray by more than a period; or something where one may be read before the
-// command before it acts.
+// If this failed, nothing would be proved where samples stray by more than a period; or something where one may be read
+// before the command before it acts.
 TEST(HoldBound, LeavesNoSampleBeforeTheCommandBeforeIt) {
   SampledLoop loop = plain_loop(0.001);
   loop.jitter = 0.0015;
@@ -75,7 +75,7 @@ TEST(HoldBound, LeavesNoSampleBeforeTheCommandBeforeIt) {
   EXPECT_EQ(passivity_bound(spring_motor(1000), loop).proof, Proof::none);
 }
 
-// More would be asked of a late network than one of the two statements asks.
+// If this failed, more would be asked of a late network than one of the two statements asks.
 TEST(HoldBound, GivesWayWhereTheOtherAsksLess) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     SCOPED_TRACE(seed);
@@ -98,7 +98,7 @@ TEST(HoldBound, GivesWayWhereTheOtherAsksLess) {
   }
 }
 
-// Without lag jitter would cost nothing, or not be covered; with lag it would be said to be.
+// If this failed, jitter without lag would cost nothing, or not be covered; with lag it would be said to be.
 TEST(SampledStatement, CoversJitterWithoutLagAlone) {
   SampledLoop loop = differencing_loop(0.001, 5);
   loop.delay_samples = 1;

@@ -19,7 +19,7 @@ void expect_supremum(const SampledBound& bound, double value) {
   EXPECT_LE(bound.needed, value * (1 + 1e-6));
 }
 
-// A spring and a backward-difference damper would not need K T/2 + |B|.
+// If this failed, a spring and a backward-difference damper would not need K T/2 + |B|.
 TEST(KnownValues, SpringWithBackwardDifferenceDamper) {
   for (const double damping : {2.0, -2.0}) {
     MotorConstants motor = spring_motor(3000);
@@ -28,7 +28,7 @@ TEST(KnownValues, SpringWithBackwardDifferenceDamper) {
   }
 }
 
-// A spring that acts n samples late would not need (K T/2)(1 + 2n).
+// If this failed, a spring that acts n samples late would not need (K T/2)(1 + 2n).
 TEST(KnownValues, LateSpring) {
   for (const unsigned delay : {0u, 1u, 2u, 7u, 40u}) {
     SampledLoop loop = plain_loop(known_period);
@@ -51,7 +51,7 @@ TEST(KnownValues, EverythingInTheMotor) {
   EXPECT_NEAR(bound.frequency, 500, 1);
 }
 
-// A damper through an N-sample difference would not need the tabled shares of itself.
+// If this failed, a damper through an N-sample difference would not need the tabled shares of itself.
 TEST(KnownValues, DamperThroughLongDifferences) {
   const std::pair<unsigned, double> table[] = {{1, 1}, {3, 0.439}, {5, 0.346}, {10, 0.280}, {15, 0.259}, {20, 0.248}};
   for (const auto& [window, share] : table) {
@@ -69,7 +69,8 @@ TEST(KnownValues, DamperThroughLongDifferences) {
   }
 }
 
-// A velocity-driven Maxwell branch would not need what theory states for a brake that falls short by 2 or 5 per cent.
+// If this failed, a velocity-driven Maxwell branch would not need what theory states for a brake that falls short by 2
+// or 5 per cent.
 TEST(KnownValues, ShortfallOfTheBrake) {
   const double stiffness = 50, damping = 5;
   for (const auto& [tolerance, missing, window] : {std::tuple(0.02, 0.075, 1u), std::tuple(0.05, 0.225, 1u),

@@ -75,8 +75,8 @@ TEST(MeasuredInterval, NoLessWouldDoForADamper) {
   }
 }
 
-// What is stated of a spring and a damper would not be enough for a hand and a clock that look for the worst: any move
-// in any hold, among them the one that takes most out of the force that is held.
+// If this failed, what is stated of a spring and a damper would not be enough for a hand and a clock that look for the
+// worst: any move in any hold, among them the one that takes most out of the force that is held.
 TEST(MeasuredInterval, WhatIsStatedIsEnough) {
   MotorConstants motor = spring_motor(500);
   motor.velocity_gain = 5;

@@ -12,7 +12,7 @@ constexpr double T = 0.001;  // [s]
 
 double gain_of(const MotorConstants& motor, const SampledLoop& loop) { return quantisation_gain(motor, loop).value(); }
 
-// A spring would not pass on an error of the encoder as itself, however late it acts.
+// If this failed, a spring would not pass on an error of the encoder as itself, however late it acts.
 TEST(Quantisation, OfASpringIsTheSpring) {
   SampledLoop loop = plain_loop(T);
   EXPECT_EQ(gain_of(spring_motor(800), loop), 800);
@@ -21,8 +21,8 @@ TEST(Quantisation, OfASpringIsTheSpring) {
   EXPECT_EQ(gain_of(spring_motor(800), loop), 800);
 }
 
-// Maxwell elements would not pass on twice what they answer within a sample, however slow they are: an error that jumps
-// after a long rest is felt whole.
+// If this failed, Maxwell elements would not pass on twice what they answer within a sample, however slow they are: an
+// error that jumps after a long rest is felt whole.
 TEST(Quantisation, OfMaxwellElementsIsTwiceTheirStep) {
   for (const double rate : {3e-9, 0.2, 700.0}) {
     MotorConstants motor = spring_motor(100);
@@ -32,8 +32,8 @@ TEST(Quantisation, OfMaxwellElementsIsTwiceTheirStep) {
   }
 }
 
-// A damper through a difference over N samples would not pass on 2 B/(N T); through a least-squares slope the sum of
-// its weights' sizes.
+// If this failed, a damper through a difference over N samples would not pass on 2 B/(N T); through a least-squares
+// slope the sum of its weights' sizes.
 TEST(Quantisation, OfADamperFollowsTheEstimator) {
   for (const unsigned window : {1u, 4u, 15u})
     EXPECT_NEAR(gain_of(damper_motor(-3), differencing_loop(T, window)), 6 / (window * T), 1e-9);
@@ -42,8 +42,8 @@ TEST(Quantisation, OfADamperFollowsTheEstimator) {
   EXPECT_NEAR(gain_of(damper_motor(1), loop), 6 * (4 + 2 + 0 + 2 + 4) / (T * 4 * 5 * 6), 1e-9);
 }
 
-// FOAW would be taken for its longest window, though it may choose the shortest at every edge; and nothing is known of
-// an estimator that is neither linear nor that.
+// If this failed, FOAW would be taken for its longest window, though it may choose the shortest at every edge; and
+// nothing is known of an estimator that is neither linear nor that.
 TEST(Quantisation, OfOtherEstimators) {
   SampledLoop loop = differencing_loop(T, 20);
   loop.velocity.estimator = estimator_kind::foaw;
@@ -54,7 +54,7 @@ TEST(Quantisation, OfOtherEstimators) {
   EXPECT_FALSE(quantisation_gain(motor, loop));
 }
 
-// What friction leaves unpaid would not be K Δ/2 − f_c, nor nothing where it pays for all.
+// If this failed, what friction leaves unpaid would not be K Δ/2 − f_c, nor nothing where it pays for all.
 TEST(Quantisation, FrictionPays) {
   Certificate certificate;
   certificate.quantisation_gain = 4000;
@@ -84,8 +84,8 @@ Tree parallel(std::vector<Tree> children) { return {Tree::Kind::parallel, {}, 0,
 
 const CutSettings exact_settings = {Scheme::exact, Real(T), 1};
 
-// A spring in front of a slip would not pass on an error as itself, to the tool and to the slip; or a slip beside which
-// dampers lie would not hold them fast.
+// If this failed, a spring in front of a slip would not pass on an error as itself, to the tool and to the slip; or a
+// slip beside which dampers lie would not hold them fast.
 TEST(Quantisation, OfASlipBehindASpringIsTheSpring) {
   for (const Tree& rest : {slip(2), parallel({slip(2), damper(7)})}) {
     const HeldSlips held = held_slips(series({spring(300), rest}), {Real(0)}, exact_settings);
@@ -96,8 +96,8 @@ TEST(Quantisation, OfASlipBehindASpringIsTheSpring) {
   }
 }
 
-// A damper in front of a slip would not pass on twice what it answers within a sample; or the brake's part of it would
-// count.
+// If this failed, a damper in front of a slip would not pass on twice what it answers within a sample; or the brake's
+// part of it would count.
 TEST(Quantisation, OfASlipBehindADamperIsWhatTheBrakeLeaves) {
   const Tree component = series({damper(3), slip(1)});
   EXPECT_NEAR(to_double(held_slips(component, {Real(0)}, exact_settings).gain), 2 * 3 / T, 1e-9);
@@ -114,8 +114,8 @@ TEST(Quantisation, OfASlipDeeperInsideHasTermsOfEitherSign) {
   EXPECT_NEAR(to_double(held.gain), 2 * 80 / (1 + 80.0 / 4 * T), 1e-9);
 }
 
-// A slip that gives way within the encoder's step would have a gain, though nothing is known of the sum; or one that
-// holds none.
+// If this failed, a slip that gives way within the encoder's step would have a gain, though nothing is known of the
+// sum; or one that holds none.
 TEST(Quantisation, OfSlipsThatGiveWayWithinAStepIsNotKnown) {
   SlipMotor slips;
   slips.held_gain = 40;

@@ -102,7 +102,7 @@ SampledLoop random_loop(Random& random) {
   return loop;
 }
 
-// The certificate would promise less damping than some frequency needs, or ask for more than any does.
+// If this failed, the certificate would promise less damping than some frequency needs, or ask for more than any does.
 TEST(SampledBound, MeetsAScanOnRandomMotors) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
@@ -118,7 +118,7 @@ TEST(SampledBound, MeetsAScanOnRandomMotors) {
   }
 }
 
-// The amplifier's lag would be left out, or its aliases would.
+// If this failed, the amplifier's lag would be left out, or its aliases would.
 TEST(SampledBound, MeetsAScanWithALag) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);
@@ -134,8 +134,8 @@ TEST(SampledBound, MeetsAScanWithALag) {
   }
 }
 
-// A supremum that is all but level, near the rounding of its terms, would be looked for without end; or, left early,
-// the bound would fall below it.
+// If this failed, a supremum that is all but level, near the rounding of its terms, would be looked for without end;
+// or, left early, the bound would fall below it.
 TEST(SampledBound, LeavesALevelSupremumInTimeAndAbove) {
   for (const double rate : {22.0, 2200.0, 2.2e5}) {
     SCOPED_TRACE(rate);

@@ -23,7 +23,7 @@ void expect_proved(const MotorConstants& motor, const SampledLoop& loop, double 
   EXPECT_GE(proof->damping, bound_of(motor, loop).attained);
 }
 
-// A late spring would not be proved at (KT/2)(1 + 2n).
+// If this failed, a late spring would not be proved at (KT/2)(1 + 2n).
 TEST(StorageFunction, LateSpring) {
   for (const unsigned delay : {0u, 1u, 2u, 7u}) {
     SampledLoop loop = plain_loop(punctual_period);
@@ -32,14 +32,14 @@ TEST(StorageFunction, LateSpring) {
   }
 }
 
-// Differences over longer windows would not be proved at the tabled values.
+// If this failed, differences over longer windows would not be proved at the tabled values.
 TEST(StorageFunction, DamperThroughWindows) {
   expect_proved(damper_motor(5), differencing_loop(punctual_period, 2), 2.8125);
   expect_proved(damper_motor(5), differencing_loop(punctual_period, 3), 2.192608591, 3e-10);
   expect_proved(damper_motor(5), differencing_loop(punctual_period, 5), 1.728768207, 3e-10);
 }
 
-// A Kelvin element in the motor, with delay, lag and filters, would not be proved at the tabled values.
+// If this failed, a Kelvin element in the motor, with delay, lag and filters, would not be proved at the tabled values.
 TEST(StorageFunction, KelvinOnDevices) {
   MotorConstants motor = spring_motor(500);
   motor.velocity_gain = 5;
@@ -63,7 +63,7 @@ TEST(StorageFunction, KelvinOnDevices) {
   expect_proved(motor, loop, 4.030414829);
 }
 
-// A velocity-driven Maxwell element behind its brake would not be proved at the tabled values.
+// If this failed, a velocity-driven Maxwell element behind its brake would not be proved at the tabled values.
 TEST(StorageFunction, MaxwellDrivenByTheEstimate) {
   for (const auto& [window, supremum] :
        {std::pair(1u, 4.975000208), std::pair(5u, 4.877106299), std::pair(15u, 4.730302196)}) {
@@ -75,7 +75,7 @@ TEST(StorageFunction, MaxwellDrivenByTheEstimate) {
   }
 }
 
-// A spring behind a lag of a period would not be proved at the tabled value.
+// If this failed, a spring behind a lag of a period would not be proved at the tabled value.
 TEST(StorageFunction, SpringBehindALag) {
   SampledLoop loop = plain_loop(punctual_period);
   loop.amplifier_lag = punctual_period;
@@ -142,8 +142,8 @@ double least_left_over(const dashpot_check::LoopForm& loop, const StorageProof& 
   return double(Eigen::SelfAdjointEigenSolver<Square>(scaled, Eigen::EigenvaluesOnly).eigenvalues().minCoeff());
 }
 
-// One P would not serve some lengths of a hold, or some times at which its commands act, where both vary; or it would
-// be far from the least.
+// If this failed, one P would not serve some lengths of a hold, or some times at which its commands act, where both
+// vary; or it would be far from the least.
 TEST(StorageFunction, OfLateCommandsServesAllHolds) {
   MotorConstants motor = spring_motor(500);
   motor.velocity_gain = 2;
@@ -183,8 +183,8 @@ TEST(StorageFunction, NearTheOnlyOne) {
   EXPECT_NEAR(proof->storage[1][1], 1250, 0.1);
 }
 
-// The tabled P of the same damper, for the last displacement and the force r = 2500 (Δu_k + Δu_{k−1}), would not prove
-// a damping of S (1 + 1e-6), for which it was found; or it would prove S.
+// If this failed, the tabled P of the same damper, for the last displacement and the force r = 2500 (Δu_k + Δu_{k−1}),
+// would not prove a damping of S (1 + 1e-6), for which it was found; or it would prove S.
 TEST(StorageFunction, OfADamperAsItIsTabled) {
   const double first = 1562.501565, mixed = -0.2500001139, second = 2.000000907e-4, r = 2500;
   const double square = second * r * r;
@@ -197,7 +197,7 @@ TEST(StorageFunction, OfADamperAsItIsTabled) {
   EXPECT_FALSE(proves(2.8125));
 }
 
-// A mode that hardly relaxes would be charged what the arcs of the frequency search leave open.
+// If this failed, a mode that hardly relaxes would be charged what the arcs of the frequency search leave open.
 TEST(StorageFunction, SlowMode) {
   MotorConstants motor;
   motor.modes = {{0.9999999999974019, 1 - 0.9999999999974019, 0, 565.281042 * 0.9999999999974019 * 1e-4, 0}};
@@ -209,8 +209,8 @@ TEST(StorageFunction, SlowMode) {
   EXPECT_NEAR(proof->damping / 0.14131997, 1, 4e-8);
 }
 
-// A mode that loses less in a sample than a double can tell from 1, as those of a polymer over 21 decades of time,
-// would leave the law without a storage function.
+// If this failed, a mode that loses less in a sample than a double can tell from 1, as those of a polymer over 21
+// decades of time, would leave the law without a storage function.
 TEST(StorageFunction, ModeThatOutlastsDoubles) {
   MotorConstants motor = spring_motor(500);
   motor.velocity_gain = 5;
@@ -325,8 +325,8 @@ TEST(StorageFunction, OfAMeasuredIntervalIsNoMoreThanPartByPart) {
   EXPECT_EQ(proved_bound(damper_motor(1), loop).proof, Proof::none);  // no time may have passed
 }
 
-// A law would be certified by a proof that leaves out the device's jitter; or the search that is soon would end below
-// what the other finds, or far above it.
+// If this failed, a law would be certified by a proof that leaves out the device's jitter; or the search that is soon
+// would end below what the other finds, or far above it.
 TEST(StorageFunction, CoversTheJitterBehindALag) {
   MotorConstants motor = spring_motor(500);
   motor.velocity_gain = 5;
@@ -351,7 +351,8 @@ TEST(StorageFunction, CoversTheJitterBehindALag) {
   }
 }
 
-// Jitter would cost a law of slow modes twice what is necessary, because rounding ends the search for its P.
+// If this failed, jitter would cost a law of slow modes twice what is necessary, because rounding ends the search for
+// its P.
 TEST(StorageFunction, CoversTheJitterOfSlowModes) {
   constexpr double period = 1e-4;
   SampledLoop loop = differencing_loop(period, 1);
@@ -375,7 +376,7 @@ TEST(StorageFunction, CoversTheJitterOfSlowModes) {
   }
 }
 
-// A spring that pushes would be proved, whose energy no motion of the tool bounds.
+// If this failed, a spring that pushes would be proved, whose energy no motion of the tool bounds.
 TEST(StorageFunction, NotOfASpringThatPushes) {
   const SampledLoop loop = plain_loop(punctual_period);
   const dashpot_check::Storage nothing = {{0}};

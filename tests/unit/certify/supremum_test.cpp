@@ -304,9 +304,9 @@ TEST(Supremum, IsWhatStorageFunctionsProveOfRandomMotors) { expect_suprema(repet
 // The same of commands that act later than their samples, behind lags too.
 TEST(Supremum, IsWhatStorageFunctionsProveOfLateCommands) { expect_suprema(repetitions(15, 1000), true); }
 
-// Doubles would keep too few digits of a pole next to −1, of an estimate that follows every sample, to find the
-// supremum or a P near it; no state would be looked at where a filter near half the rate rings; the checker would not
-// know such a filter's coefficients; or the test see the lower of two peaks that a long window has.
+// If this failed, doubles would keep too few digits of a pole next to −1, of an estimate that follows every sample, to
+// find the supremum or a P near it; no state would be looked at where a filter near half the rate rings; the checker
+// would not know such a filter's coefficients; or the test see the lower of two peaks that a long window has.
 TEST(Supremum, IsWhatStorageFunctionsProveNearHalfTheRate) {
   Proved proved;
   const std::uint64_t seeds[] = {52, 99, 196, 261, 376, 76, 215, 255, 142, 187, 267, 1191};
@@ -315,7 +315,8 @@ TEST(Supremum, IsWhatStorageFunctionsProveNearHalfTheRate) {
   EXPECT_EQ(proved.nearly, std::size(seeds));
 }
 
-// More strictness would be asked for than there is beyond a narrow peak, and with it 4e-8 to 4e-7 more damping.
+// If this failed, more strictness would be asked for than there is beyond a narrow peak, and with it 4e-8 to 4e-7 more
+// damping.
 TEST(Supremum, IsWhatStorageFunctionsProveAtNarrowPeaks) {
   Proved proved;
   const std::uint64_t seeds[] = {3395, 4131, 1091, 2185, 2402};
@@ -323,8 +324,8 @@ TEST(Supremum, IsWhatStorageFunctionsProveAtNarrowPeaks) {
   EXPECT_EQ(proved.nearly, std::size(seeds));
 }
 
-// P rounded to doubles would ask for more than 1e-8 beyond the supremum, where its roundings stand behind it and are
-// read with it; or a row of which some are missing would be read.
+// If this failed, P rounded to doubles would ask for more than 1e-8 beyond the supremum, where its roundings stand
+// behind it and are read with it; or a row of which some are missing would be read.
 TEST(Supremum, IsWhatStorageFunctionsProveOfMoreDigitsThanDoubleHas) {
   Proved proved;
   const std::uint64_t seeds[] = {162, 562, 563, 893, 1139, 1218, 2334};
@@ -348,7 +349,7 @@ TEST(Supremum, IsWhatStorageFunctionsProveOfMoreDigitsThanDoubleHas) {
   EXPECT_FALSE(is_proved(storage, proof->damping));
 }
 
-// A pole of the filter next to −1 would keep no digits, and the bound fall below the supremum.
+// If this failed, a pole of the filter next to −1 would keep no digits, and the bound fall below the supremum.
 TEST(Supremum, OfAnEstimateThatFollowsEverySample) {
   for (const double manoeuvre : {1e6, 1e7, 3e7, 1e8, 1e10, 1e12}) {
     SCOPED_TRACE(manoeuvre);
@@ -363,7 +364,7 @@ TEST(Supremum, OfAnEstimateThatFollowsEverySample) {
   }
 }
 
-// Nothing would be said of an estimate whose recursion, rounded, no longer dies away.
+// If this failed, nothing would be said of an estimate whose recursion, rounded, no longer dies away.
 TEST(Supremum, OfNoEstimateThatRings) {
   SampledLoop loop = plain_loop(0.001);
   loop.has_device = true;
@@ -374,8 +375,9 @@ TEST(Supremum, OfNoEstimateThatRings) {
   EXPECT_EQ(passivity_bound(damper_motor(1), loop).proof, Proof::none);
 }
 
-// A filter that never amplifies would cost damping because its cut-off is near half the rate, or be given up. What its
-// brake leaves to the motor is below half the viscosity, so that no delay and no filter costs any (theory, section 4).
+// If this failed, a filter that never amplifies would cost damping because its cut-off is near half the rate, or be
+// given up. What its brake leaves to the motor is below half the viscosity, so that no delay and no filter costs any
+// (theory, section 4).
 TEST(Supremum, OfAFilterNearHalfTheRate) {
   for (const double share : {0.4, 0.49, 0.498, 0.499, 0.4999, 0.499999})
     for (const unsigned order : {2u, 4u}) {

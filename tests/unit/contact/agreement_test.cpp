@@ -72,7 +72,8 @@ NetworkRecipe recipe(std::size_t most_slips, Topology topology = Topology::tree)
 
 }  // namespace
 
-// The law without slips would open or close the gap at the wrong time, or put the surface in the wrong place.
+// If this failed, the law without slips would open or close the gap at the wrong time, or put the surface in the wrong
+// place.
 TEST(ContactAgreement, LinearIsThatOfTheElements) {
   EXPECT_EQ(first_failure(1, repetitions(120, 20000), recipe(0), disagreement), "");
 }
@@ -87,7 +88,7 @@ TEST(ContactAgreement, SlipsOutsideTreesAreThatOfTheElements) {
   EXPECT_EQ(first_failure(1, repetitions(120, 20000), recipe(5, Topology::graph), disagreement), "");
 }
 
-// A tissue would give energy away when it is left or touched again, or hold on to the tool.
+// If this failed, a tissue would give energy away when it is left or touched again, or hold on to the tool.
 TEST(ContactEnergy, NeverRisesByMoreThanTheWork) {
   for (const compiler::Scheme scheme : {compiler::Scheme::exact, compiler::Scheme::backward_euler})
     for (const NetworkRecipe& shape : {recipe(0), recipe(6), recipe(5, Topology::graph)})
@@ -96,7 +97,7 @@ TEST(ContactEnergy, NeverRisesByMoreThanTheWork) {
                 "");
 }
 
-// The motions above would hardly ever leave the tissue, and the tests prove nothing about it.
+// If this failed, the motions above would hardly ever leave the tissue, and the tests prove nothing about it.
 TEST(ContactAgreement, CoversTouchAndRelease) {
   std::size_t touches = 0, releases = 0;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {

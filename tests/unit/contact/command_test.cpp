@@ -87,14 +87,15 @@ double visits(double t) { return 0.002 * std::sin(2 * std::numbers::pi * 0.4 * t
 
 }  // namespace
 
-// A tool held in a tissue would feel the brake chatter with the tremor of the hand.
+// If this failed, a tool held in a tissue would feel the brake chatter with the tremor of the hand.
 TEST(ContactCommand, HeldTwoMillimetresDeepNeverToggles) {
   for (const char* structure : {wall, tissue}) {
     EXPECT_EQ(run(law_for(structure, encoder_step), held(0.002), 10).toggles, 0) << structure;
   }
 }
 
-// The hysteresis would be of no use: where a tool barely touches, the gap opens and closes with every count.
+// If this failed, the hysteresis would be of no use: where a tool barely touches, the gap opens and closes with every
+// count.
 TEST(ContactCommand, HysteresisKeepsABareTouchQuiet) {
   const int without = run(law_for(wall, 0), held(0.0003), 10).toggles,
             with = run(law_for(wall, encoder_step), held(0.0003), 10).toggles;
@@ -102,7 +103,8 @@ TEST(ContactCommand, HysteresisKeepsABareTouchQuiet) {
   EXPECT_LT(with, without / 10);
 }
 
-// The tool would be pulled back as it leaves by more than the brake makes within one step of the encoder.
+// If this failed, the tool would be pulled back as it leaves by more than the brake makes within one step of the
+// encoder.
 TEST(ContactCommand, PullsNoMoreThanTheStatedHysteresis) {
   for (const char* structure : {wall, tissue}) {
     const Outcome outcome = run(law_for(structure, encoder_step), visits, 20);
@@ -111,7 +113,8 @@ TEST(ContactCommand, PullsNoMoreThanTheStatedHysteresis) {
   }
 }
 
-// A command that lets go would leave the motor pushing, or one that holds on would take the state with it.
+// If this failed, a command that lets go would leave the motor pushing, or one that holds on would take the state with
+// it.
 TEST(ContactCommand, LetsGoOfBothAndNotOfTheState) {
   const compiler::UpdateLaw without = law_for(wall, 0), with = law_for(wall, encoder_step);
   compiler::Evaluation<double> ideal(without), kept(with);
@@ -128,7 +131,7 @@ TEST(ContactCommand, LetsGoOfBothAndNotOfTheState) {
   EXPECT_EQ(kept.step(position - 1e-6, -1).damping, 0);
 }
 
-// A split that compensates would do so in the sample in which the tool touches or leaves.
+// If this failed, a split that compensates would do so in the sample in which the tool touches or leaves.
 TEST(ContactCommand, LeavesNothingToCompensate) {
   const char* const maxwell =
       R"({"parallel": [{"spring": 300}, {"damper": 5}, {"series": [{"damper": 4}, {"spring": 200}]}]})";
@@ -141,7 +144,7 @@ TEST(ContactCommand, LeavesNothingToCompensate) {
   }
 }
 
-// States driven by the estimate would follow the tool where it does not touch the surface.
+// If this failed, states driven by the estimate would follow the tool where it does not touch the surface.
 TEST(ContactCommand, RefusesStatesDrivenByTheEstimate) {
   const compiler::Network network = behind_contact(wall, 0);
   compiler::Choices choices;
@@ -152,7 +155,7 @@ TEST(ContactCommand, RefusesStatesDrivenByTheEstimate) {
   EXPECT_EQ(diagnostics.in_file_order().front().code, compiler::DiagnosticCode::contact_needs_position);
 }
 
-// What explain and the banner say would not be what the command does.
+// If this failed, what explain and the banner say would not be what the command does.
 TEST(ContactCommand, SaysHowLongItHoldsOn) {
   compiler::Compilation c = compiled(behind_contact(wall, 0.002), compiler::Scheme::exact);
   EXPECT_EQ(contact_text(c.decomposition, c.network), "at 0.002 m; brake and motor 0 while the tool is free");
@@ -161,7 +164,7 @@ TEST(ContactCommand, SaysHowLongItHoldsOn) {
   EXPECT_EQ(contact_text(c.decomposition, written_network(wall)), "");
 }
 
-// A NaN or infinite sample would change the surface, or find the brake changed.
+// If this failed, a NaN or infinite sample would change the surface, or find the brake changed.
 TEST(ContactCommand, SurvivesWhatIsNoNumber) {
   for (const char* structure : {wall, tissue}) {
     const compiler::UpdateLaw law = law_for(structure, encoder_step);
@@ -180,7 +183,7 @@ TEST(ContactCommand, SurvivesWhatIsNoNumber) {
   }
 }
 
-// A wall of nothing, as a slider leaves it, would be refused as if its numbers were too large.
+// If this failed, a wall of nothing, as a slider leaves it, would be refused as if its numbers were too large.
 TEST(ContactCommand, TakesAWallOfNothing) {
   const compiler::UpdateLaw law = law_for(R"({"spring": 0})", 0);
   compiler::Evaluation<double> run(law);

@@ -52,9 +52,9 @@ std::vector<double> forces_of_law(const compiler::Network& network, int samples_
 
 }  // namespace
 
-// Forces at the second touch would not be those of a tissue that has recovered in part. The reference are elements at
-// 32 and 64 kHz, extrapolated to steps of none; the law comes closer in proportion to its period, as a contact falls
-// anywhere in a sample. In that sample itself the dampers' force jumps, and is left out.
+// If this failed, forces at the second touch would not be those of a tissue that has recovered in part. The reference
+// are elements at 32 and 64 kHz, extrapolated to steps of none; the law comes closer in proportion to its period, as a
+// contact falls anywhere in a sample. In that sample itself the dampers' force jumps, and is left out.
 TEST(ContactRecovery, SecondTouchIsThatOfAFineStep) {
   for (const char* structure : {zener, with_slip}) {
     const compiler::Network network = behind_contact(structure, 0);
@@ -78,7 +78,8 @@ TEST(ContactRecovery, SecondTouchIsThatOfAFineStep) {
   }
 }
 
-// A surface that nothing touches would not come back as its elements do: a Kelvin element by 1/(1 + h K/B) a sample.
+// If this failed, a surface that nothing touches would not come back as its elements do: a Kelvin element by 1/(1 + h
+// K/B) a sample.
 TEST(ContactRecovery, FreeKelvinComesBackByItself) {
   const compiler::Compilation compilation =
       compiled(behind_contact(R"({"parallel": [{"spring": 500}, {"damper": 5}]})", 0.001), compiler::Scheme::exact);
@@ -94,7 +95,8 @@ TEST(ContactRecovery, FreeKelvinComesBackByItself) {
   }
 }
 
-// reset() would not load the static spring where the tool is, or leave the tissue pressed where it is not.
+// If this failed, reset() would not load the static spring where the tool is, or leave the tissue pressed where it is
+// not.
 TEST(ContactRecovery, ResetsToRest) {
   for (const char* structure : {zener, with_slip}) {
     const double stiffness = structure == zener ? 200 : 150;

@@ -24,7 +24,8 @@ Compiled branches(double fastest, const Choices& choices = {}) {
 // Bits that the fastest force loses from one guard to the next, were `places` guarded a sample; 1 kHz.
 double bits_between(double fastest, std::size_t places) { return fastest * 1e-3 / std::log(2.0) * 64 / double(places); }
 
-// A force would be subnormal before its guard came, or its square far below; or more be guarded than has to be.
+// If this failed, a force would be subnormal before its guard came, or its square far below; or more would be guarded
+// than has to be.
 TEST(GuardsInTurn, ComeAsSeldomAsTheFastestForceAllows) {
   for (const double fastest : {2.0, 1e3, 15e3, 20e3, 30e3, 60e3}) {
     const Compiled compiled = branches(fastest);
@@ -38,8 +39,8 @@ TEST(GuardsInTurn, ComeAsSeldomAsTheFastestForceAllows) {
   }
 }
 
-// Where half of the forces a sample are too few, in float, whose threshold's square is barely normal, or on demand,
-// some force would go without.
+// If this failed, some force would go without its guard: where half of the forces a sample are too few, in float, whose
+// threshold's square is barely normal, or on demand.
 TEST(GuardsInTurn, AreForSlowForcesInDoubleAlone) {
   Choices in_float, on_demand;
   in_float.scalar = ScalarType::float32;
@@ -50,7 +51,7 @@ TEST(GuardsInTurn, AreForSlowForcesInDoubleAlone) {
   }
 }
 
-// Some place would never be guarded, or too late.
+// If this failed, some place would never be guarded, or too late.
 TEST(GuardsInTurn, LeaveNoForceBelowItsSquaresRange) {
   for (const double fastest : {2.0, 1e3, 30e3}) {
     const Compiled compiled = branches(fastest);

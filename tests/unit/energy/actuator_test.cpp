@@ -25,7 +25,7 @@ device_description arm() {
 // A rounding of a handful of products.
 void expect_equal(double seen, double expected) { EXPECT_NEAR(seen, expected, 4e-16 * std::abs(expected)); }
 
-// The arm radius would enter with a wrong power, or the torque with a wrong sign.
+// If this failed, the arm radius would enter with a wrong power, or the torque with a wrong sign.
 TEST(Actuator, ConvertsFromToolToJoint) {
   actuator<double> drive(arm(), motion::translation);
   const actuator_output<double> output = drive.drive({2, 0.6}, 0);
@@ -40,7 +40,7 @@ TEST(Actuator, ConvertsFromToolToJoint) {
   expect_equal(drive.gear().joint_motion(0.015), 0.3);
 }
 
-// A network in the joint's own coordinate would be scaled by the arm.
+// If this failed, a network in the joint's own coordinate would be scaled by the arm.
 TEST(Actuator, LeavesJointNetworksAlone) {
   actuator<double> drive(arm(), motion::rotation);
   const actuator_output<double> output = drive.drive({0.004, 0.02}, 0);
@@ -49,7 +49,7 @@ TEST(Actuator, LeavesJointNetworksAlone) {
   EXPECT_EQ(drive.gear().tool_motion(0.3), 0.3);
 }
 
-// A linear device would be asked to render a rotation, or a rotary one without an arm a translation.
+// If this failed, a linear device would be asked to render a rotation, or a rotary one without an arm a translation.
 TEST(Actuator, KnowsWhatItCanDrive) {
   device_description device = arm();
   EXPECT_TRUE(can_drive(device, motion::translation));
@@ -62,7 +62,7 @@ TEST(Actuator, KnowsWhatItCanDrive) {
   EXPECT_FALSE(can_drive(device, motion::rotation));
 }
 
-// Currents would not be i = √(b/κ) and τ/k_t, or would be invented where the constants are not stated.
+// If this failed, currents would not be i = √(b/κ) and τ/k_t, or would be invented where the constants are not stated.
 TEST(Actuator, StatesTheCurrents) {
   device_description device = arm();
   const actuator_output<double> output = actuator<double>(device, motion::rotation).drive({7e-3, 0.03}, 0);
@@ -76,7 +76,7 @@ TEST(Actuator, StatesTheCurrents) {
   EXPECT_EQ(unknown.brake_damping, 7e-3);
 }
 
-// A limit would be exceeded, or what it takes away would not be told to the safety monitor.
+// If this failed, a limit would be exceeded, or what it takes away would not be told to the safety monitor.
 TEST(Actuator, CutsAndReports) {
   actuator<double> drive(arm(), motion::rotation);
   const actuator_output<double> output = drive.drive({0.010, -0.2}, 0);
@@ -91,7 +91,8 @@ TEST(Actuator, CutsAndReports) {
   EXPECT_EQ(negative.damping_clipped, -0.001);
 }
 
-// A device without a brake would be asked to brake, or one without a stated torque limit would be cut to nothing.
+// If this failed, a device without a brake would be asked to brake, or one without a stated torque limit would be cut
+// to nothing.
 TEST(Actuator, AbsentPartsAreAbsent) {
   device_description device;
   device.brake.max_damping = 3;
@@ -110,7 +111,7 @@ device_description arm_with_lag() {
   return device;
 }
 
-// How far the coil is behind would be wrong: fidelity reports and the make-up rest on it.
+// If this failed, how far the coil is behind would be wrong: fidelity reports and the make-up rest on it.
 TEST(Actuator, PredictsTheCoil) {
   actuator<double> drive(arm_with_lag(), motion::rotation);
   const double reached = std::sqrt(0.004) * (1 - std::exp(-0.5));
@@ -123,7 +124,7 @@ TEST(Actuator, PredictsTheCoil) {
   EXPECT_NEAR(drive.drive({0.004, 0}, 0).damping_behind, 0, 1e-18);
 }
 
-// The energy observer would be credited with more than the worst brake within its tolerance dissipates.
+// If this failed, the energy observer would be credited with more than the worst brake within its tolerance dissipates.
 TEST(Actuator, AssuredDampingIsALowerBound) {
   const device_description device = arm_with_lag();
   actuator<double> drive(device, motion::translation);
@@ -143,7 +144,7 @@ TEST(Actuator, AssuredDampingIsALowerBound) {
   }
 }
 
-// A brake that has settled would be credited with less than it is sure to have.
+// If this failed, a brake that has settled would be credited with less than it is sure to have.
 TEST(Actuator, AssuredDampingOfASettledBrakeLacksTheToleranceOnly) {
   actuator<double> drive(arm_with_lag(), motion::translation);
   for (int k = 0; k < 100; ++k) drive.drive({2, 0}, 0);
@@ -151,7 +152,8 @@ TEST(Actuator, AssuredDampingOfASettledBrakeLacksTheToleranceOnly) {
   EXPECT_NEAR(drive.drive({2, 0}, 0).assured_damping / (0.9 * 2), 1, 10 * 1.1e-16);
 }
 
-// The motor would not make up for the missing damping, or would push more than the brake is sure to resist.
+// If this failed, the motor would not make up for the missing damping, or would push more than the brake is sure to
+// resist.
 TEST(Actuator, MotorMakesUpForTheCoil) {
   const device_description device = arm_with_lag();
   actuator<double> drive(device, motion::rotation, {true, false});
@@ -167,7 +169,7 @@ TEST(Actuator, MotorMakesUpForTheCoil) {
   EXPECT_EQ(plain.drive({0.004, 0.01}, 3).applied_force, 0.01);
 }
 
-// A led coil would not arrive, or would be led beyond the brake's limit.
+// If this failed, a led coil would not arrive, or would be led beyond the brake's limit.
 TEST(Actuator, LeadsTheCoilWithinItsLimits) {
   actuator<double> drive(arm_with_lag(), motion::rotation, {false, true});
   const actuator_output<double> reachable = drive.drive({0.0005, 0}, 0);
@@ -178,7 +180,7 @@ TEST(Actuator, LeadsTheCoilWithinItsLimits) {
   EXPECT_GT(unreachable.damping_behind, 0);
 }
 
-// Firmware in single precision would compute something else.
+// If this failed, firmware in single precision would compute something else.
 TEST(Actuator, WorksInFloat) {
   actuator<float> drive(arm(), motion::translation);
   const actuator_output<float> output = drive.drive({2.0f, 0.6f}, 0);

@@ -16,7 +16,7 @@ brake_description slow_brake() {
   return brake;
 }
 
-// The slew limit or the lag would be wrong, or would act on the damping instead of on its root.
+// If this failed, the slew limit or the lag would be wrong, or would act on the damping instead of on its root.
 TEST(BrakeCoil, SlewsStraightAndThenSettles) {
   brake_coil<double> coil(slow_brake());
   // √κ = 0.5: √b slews at 50 per second, and within 50 · 4 ms = 0.2 of the demand the lag is slower than that.
@@ -27,7 +27,7 @@ TEST(BrakeCoil, SlewsStraightAndThenSettles) {
   EXPECT_NEAR(coil.damping(), coil.root_damping() * coil.root_damping(), 0);
 }
 
-// The brake would depend on how often it is looked at.
+// If this failed, the brake would depend on how often it is looked at.
 TEST(BrakeCoil, ComposesInTime) {
   brake_coil<double> whole(slow_brake()), parts(slow_brake());
   whole.advance(1.5, 0.050);
@@ -36,7 +36,7 @@ TEST(BrakeCoil, ComposesInTime) {
   EXPECT_NEAR(parts.root_damping(), whole.root_damping(), 50 * 2e-16);
 }
 
-// A coil whose κ is not known would be given a slew limit, or one without a lag would have one.
+// If this failed, a coil whose κ is not known would be given a slew limit, or one without a lag would have one.
 TEST(BrakeCoil, UnstatedLimitsDoNotAct) {
   brake_description brake = slow_brake();
   brake.damping_per_current_squared = 0;
@@ -46,7 +46,7 @@ TEST(BrakeCoil, UnstatedLimitsDoNotAct) {
   EXPECT_EQ(brake_coil<double>().after(2, 1e-9), 2);
 }
 
-// A led coil would miss what it was led to.
+// If this failed, a led coil would miss what it was led to.
 TEST(BrakeCoil, LeadArrivesAtTheEndOfThePeriod) {
   brake_description brake = slow_brake();
   brake.slew = 0;

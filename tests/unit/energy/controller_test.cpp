@@ -12,7 +12,8 @@
 namespace dashpot {
 namespace {
 
-// The brake would not repay exactly what is owed, or would go beyond its limit, or below what the model wants.
+// If this failed, the brake would not repay exactly what is owed, or would go beyond its limit, or below what the model
+// wants.
 TEST(BrakeController, RepaysTheDebtWithinTheLimit) {
   const brake_controller<double> controller(10, 0.2);
   const double moved = 1e-3, period = 1e-3;
@@ -29,14 +30,14 @@ TEST(BrakeController, RepaysTheDebtWithinTheLimit) {
   EXPECT_EQ(controller.raise({1, 1}, 0, 0, period), 1);
 }
 
-// What the network has stored would be given away for nothing.
+// If this failed, what the network has stored would be given away for nothing.
 TEST(BrakeController, GuardsWhatIsStored) {
   const brake_controller<double> controller(10, 0);
   EXPECT_EQ(controller.raise_to_stored({0.5, 3}, 0.004, 0.004, 1e-3, 1e-3), 0.5);
   EXPECT_NEAR(controller.raise_to_stored({0.5, 3}, 0.004, 0.006, 1e-3, 1e-3), 2, 1e-12);
 }
 
-// The classical controller would not bring its own account back to zero, or would act without need.
+// If this failed, the classical controller would not bring its own account back to zero, or would act without need.
 TEST(MotorController, DampsExactlyWhatIsMissing) {
   motor_controller<double> controller(100);
   EXPECT_EQ(controller.limit(2, 0.1, 0.001), 2);
@@ -130,10 +131,10 @@ outcome throw_against_late_spring(guard guard, double encoder_step = 0) {
   return seen;
 }
 
-// The experiment would prove nothing: the late spring must run away where nobody guards it.
+// If this failed, the experiment would prove nothing: the late spring must run away where nobody guards it.
 TEST(Controllers, LateSpringRunsAwayUnguarded) { EXPECT_GT(throw_against_late_spring(guard::none).most_returned, 1e6); }
 
-// The brake would let the spring give back more than was thrown in, or would need more than it has.
+// If this failed, the brake would let the spring give back more than was thrown in, or would need more than it has.
 TEST(Controllers, BrakeRestoresPassivityWithinItsLimits) {
   for (const double encoder_step : {0.0, 1e-6, 30e-6}) {
     for (const guard by : {guard::brake, guard::brake_to_stored}) {
@@ -146,14 +147,14 @@ TEST(Controllers, BrakeRestoresPassivityWithinItsLimits) {
   }
 }
 
-// Guarding what is stored would react no earlier than guarding the whole: that is what it is for.
+// If this failed, guarding what is stored would react no earlier than guarding the whole: that is what it is for.
 TEST(Controllers, GuardingTheStoredReactsEarlier) {
   EXPECT_LT(throw_against_late_spring(guard::brake_to_stored).most_given,
             throw_against_late_spring(guard::brake).most_given / 10);
 }
 
-// The classical controller would not tame the spring, or it would tame it as well as the brake does: it does not see
-// what the hold creates, and leaves that to the device's own damping.
+// If this failed, the classical controller would not tame the spring, or it would tame it as well as the brake does: it
+// does not see what the hold creates, and leaves that to the device's own damping.
 TEST(Controllers, MotorRestoresPassivityAtAPrice) {
   const outcome by_motor = throw_against_late_spring(guard::motor);
   const outcome by_brake = throw_against_late_spring(guard::brake);
@@ -162,7 +163,8 @@ TEST(Controllers, MotorRestoresPassivityAtAPrice) {
   EXPECT_GT(by_motor.most_given, 10 * by_brake.most_given);
 }
 
-// The observer would miscount the motor's work, or credit the brake with what a weak one behind its coil never did.
+// If this failed, the observer would miscount the motor's work, or credit the brake with what a weak one behind its
+// coil never did.
 TEST(Controllers, ObserverIsRightAboutTheDevice) {
   for (const guard by : {guard::brake, guard::brake_to_stored, guard::motor}) {
     const outcome exact = throw_against_late_spring(by);

@@ -47,7 +47,7 @@ TEST(Elementary, RoundsRootsWithoutAnInstruction) {
   expect_rounded_by_steps<float>(300'000);
 }
 
-// A constant would be another root than the same number in a loop.
+// If this failed, a constant would be another root than the same number in a loop.
 TEST(Elementary, HasOneRootWhereverItIsFound) {
   constexpr double two = square_root(2.0), small = square_root(3e-310), large = square_root(1.7e308);
   constexpr float three = square_root(3.0f);
@@ -62,7 +62,7 @@ TEST(Elementary, HasOneRootWhereverItIsFound) {
 TEST(Elementary, AgreesWithTheLibraryInDouble) { expect_close_to_the_library<double>(); }
 TEST(Elementary, AgreesWithTheLibraryInFloat) { expect_close_to_the_library<float>(); }
 
-// A limit would end in NaN or in an endless loop.
+// If this failed, a limit would end in NaN or in an endless loop.
 TEST(Elementary, IsTotal) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(square_root(0.0), 0);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double stiffness = 800, period = 0.001;
 
-// A sum of many small terms in float would stop growing.
+// If this failed, a sum of many small terms in float would stop growing.
 TEST(CompensatedSum, KeepsWhatRoundingTakes) {
   compensated_sum<float> sum;
   float plain = 0;
@@ -25,7 +25,8 @@ TEST(CompensatedSum, KeepsWhatRoundingTakes) {
   EXPECT_GT(std::abs(plain - 100000), 100);
 }
 
-// A held spring gives back K Δu²/2 too much a hold: the observer would not see it, or not exactly.
+// If this failed, the observer would not see, or not exactly, the K Δu²/2 that a held spring gives back too much a
+// hold.
 TEST(HoldObserver, SeesWhatAHeldSpringCreates) {
   hold_observer<double> observer;
   observer.reset(0);
@@ -42,7 +43,7 @@ TEST(HoldObserver, SeesWhatAHeldSpringCreates) {
   EXPECT_GT(created, 1e-4);
 }
 
-// A delayed command would be paired with the displacement of another hold.
+// If this failed, a delayed command would be paired with the displacement of another hold.
 TEST(HoldObserver, PairsDelayedCommandsWithTheirHold) {
   hold_observer<double> observer(2);
   observer.reset(0);
@@ -60,7 +61,7 @@ TEST(HoldObserver, PairsDelayedCommandsWithTheirHold) {
   EXPECT_EQ(expected, 1 * 3 + 10 * 4);
 }
 
-// Without a new command the old one would be forgotten, or after reset() remembered.
+// If this failed, without a new command the old one would be forgotten, or after reset() remembered.
 TEST(HoldObserver, KeepsTheLastCommandUntilReset) {
   hold_observer<double> observer;
   observer.reset(1);
@@ -75,7 +76,7 @@ TEST(HoldObserver, KeepsTheLastCommandUntilReset) {
   EXPECT_EQ(observer.balance(), 0);
 }
 
-// The bound would exceed the truth, b(t) and the motion within a hold being what they like.
+// If this failed, the bound would exceed the truth, b(t) and the motion within a hold being what they like.
 TEST(BrakeDissipation, NeverExceedsTheTruth) {
   brake_dissipation<double> bound;
   bound.reset(0);
@@ -94,7 +95,7 @@ TEST(BrakeDissipation, NeverExceedsTheTruth) {
   EXPECT_GT(bound.value(), 0.5 * truth);
 }
 
-// For steady motion and exact positions the bound would be no equality.
+// If this failed, for steady motion and exact positions the bound would be no equality.
 TEST(BrakeDissipation, IsExactForSteadyMotion) {
   brake_dissipation<double> bound;
   bound.reset(0);
@@ -112,7 +113,8 @@ double credited_share(double speed, double step) {
   return bound.value() / (3 * speed * speed * samples * period);
 }
 
-// Slow motion over an encoder would be credited with the fast motion that its single steps look like, or with nothing.
+// If this failed, slow motion over an encoder would be credited with the fast motion that its single steps look like,
+// or with nothing.
 TEST(BrakeDissipation, QuantisedMotionIsNotOverestimated) {
   for (const double speed : {1e-4, 7e-4, 3e-3, 0.011, 0.05, 0.3}) {
     const double share = credited_share(speed, 30e-6);
@@ -121,7 +123,7 @@ TEST(BrakeDissipation, QuantisedMotionIsNotOverestimated) {
   }
 }
 
-// Trembling by one encoder step at rest would be taken for motion.
+// If this failed, trembling by one encoder step at rest would be taken for motion.
 TEST(BrakeDissipation, TremblingAtAnEdgeIsNoMotion) {
   brake_dissipation<double> bound(30e-6);
   bound.reset(0);
@@ -129,7 +131,7 @@ TEST(BrakeDissipation, TremblingAtAnEdgeIsNoMotion) {
   EXPECT_EQ(bound.value(), 0);
 }
 
-// A pause, a reversal or a released brake would spoil what is counted after it.
+// If this failed, a pause, a reversal or a released brake would spoil what is counted after it.
 TEST(BrakeDissipation, StartsAfreshAfterPauses) {
   const double step = 30e-6, speed = 0.02;
   brake_dissipation<double> bound(step);
@@ -153,7 +155,7 @@ TEST(BrakeDissipation, StartsAfreshAfterPauses) {
   EXPECT_GE(bound.value(), 0.7 * truth);
 }
 
-// Motion by fits and starts would not be credited, each move diluted by the pause before it.
+// If this failed, motion by fits and starts would not be credited, each move diluted by the pause before it.
 TEST(BrakeDissipation, ShortMovesBetweenPausesCount) {
   const double step = 30e-6;
   brake_dissipation<double> bound(step);
@@ -169,7 +171,7 @@ TEST(BrakeDissipation, ShortMovesBetweenPausesCount) {
   EXPECT_NEAR(bound.value(), 9.0 / 16 * truth, 1e-12 * truth);
 }
 
-// The paper's (20) would not be f v Δt, or would lack the sign by which absorbed energy is positive.
+// If this failed, the paper's (20) would not be f v Δt, or would lack the sign by which absorbed energy is positive.
 TEST(PowerObserver, SumsForceTimesVelocity) {
   power_observer<double> observer;
   observer.observe(2, 0.5, 0.001);
@@ -229,7 +231,7 @@ TEST(HoldObserver, KnowsEveryDelayThatADeviceMayState) {
   expect_true_energy<most_delay_samples>();
 }
 
-// Where a delay is longer than the account, nothing is certain: a number would be believed.
+// If a delay is longer than the account, nothing is certain: a number that came out would be believed.
 TEST(HoldObserver, CreditsNothingBeyondItsLongestDelay) {
   hold_observer<double, 2> observer(3);
   observer.reset(0);

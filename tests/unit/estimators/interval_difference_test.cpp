@@ -17,8 +17,8 @@ constexpr double sample_period = 1e-3;          // [s]
 constexpr std::uint64_t period_ns = 1'000'000;  // [ns]
 constexpr double rounding = 4 * 0x1p-52;        // of a difference, a product and a quotient
 
-// A steady motion would seem to jerk with the clock, as it does for a difference over the nominal period: by a tenth,
-// for samples a tenth of a period early or late.
+// If this failed, a steady motion would seem to jerk with the clock, as it does for a difference over the nominal
+// period: by a tenth, for samples a tenth of a period early or late.
 TEST(IntervalDifference, OfASteadyMotionIsItsVelocityWhateverTheClockDoes) {
   interval_difference<double> by_interval(sample_period);
   backward_difference<double> by_period(1, sample_period);
@@ -54,8 +54,8 @@ TEST(IntervalDifference, OfPunctualSamplesIsTheBackwardDifference) {
   }
 }
 
-// A division by zero, or by what a clock that starts anew leaves, would reach the motor; and what the tool has moved in
-// the meantime must not be forgotten.
+// If this failed, a division by zero, or by the leap of a clock that starts anew, would reach the motor; and what the
+// tool has moved in the meantime must not be forgotten.
 TEST(IntervalDifference, IsNumberWhateverTheClockDoes) {
   interval_difference<double> estimator(sample_period);
   estimator.reset(1);
@@ -71,7 +71,7 @@ TEST(IntervalDifference, IsNumberWhateverTheClockDoes) {
   EXPECT_NEAR(estimator.update(3.001, period_ns - period_ns / 2), 1, 1e-12);  // across the wrap
 }
 
-// A run would begin with the way from the last one.
+// If this failed, a run would begin with the displacement since the last one.
 TEST(IntervalDifference, IsAtRestWhereItIsReset) {
   interval_difference<double> estimator(sample_period);
   estimator.update(5, 1'000);

@@ -88,8 +88,8 @@ std::string difference(const compiler::Network& network, std::uint64_t seed) {
 
 }  // namespace
 
-// Slips outside trees would be joined by another linear part than the author's: with every terminal held or moving
-// along it is a one-port.
+// If this failed, slips outside trees would be joined by another linear part than the author's: with every terminal
+// held or moving along it is a one-port.
 TEST(Multiport, IsTheOnePortThatItsTerminalsMakeOfIt) {
   NetworkRecipe recipe;
   recipe.topology = Topology::graph;

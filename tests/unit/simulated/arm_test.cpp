@@ -363,7 +363,8 @@ TEST_P(Arm, GivesNothingAwayUnderAPassiveLaw) {
   EXPECT_LT(least_without, -1e-7);
 }
 
-// Joints that are led along a prescribed motion would be elsewhere, or the work of leading them would be miscounted.
+// If this failed, joints that are led along a prescribed motion would be elsewhere, or the work of leading them would
+// be miscounted.
 TEST(SimulatedArm, FollowsAPrescribedMotionAndPaysForIt) {
   arm_description arm = arm_of(arm_kind::five_bar);
   for (device_description& joint : arm.joints) joint.mechanics.coulomb_friction = 1e-3, joint.motor.amplifier_lag = 0;

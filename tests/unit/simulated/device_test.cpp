@@ -12,7 +12,7 @@
 namespace dashpot::simulated {
 namespace {
 
-// Samples would not lie a period apart, or be numbered otherwise.
+// If this failed, samples would not lie a period apart, or be numbered otherwise.
 TEST(Device, TimeGoesOnByOnePeriodARead) {
   simulated_device device(plain_device());
   device_sample sample;
@@ -23,8 +23,8 @@ TEST(Device, TimeGoesOnByOnePeriodARead) {
   }
 }
 
-// A network that rotates would be led by the arm, which only one that moves the tool has to do with; or one that does
-// not move as the joint would be simulated without an arm.
+// If this failed, a network that rotates would be led by the arm, which only one that moves the tool has to do with; or
+// one that does not move as the joint would be simulated without an arm.
 TEST(Device, TheNetworkSaysWhetherTheArmIsBetween) {
   device_description arm = imperfect_arm();
   scenario scene;
@@ -40,7 +40,7 @@ TEST(Device, TheNetworkSaysWhetherTheArmIsBetween) {
   EXPECT_NE(simulated_device::refusal(arm, scene), nullptr);
 }
 
-// Jitter would exceed its bound, add up from sample to sample, or not be there at all.
+// If this failed, jitter would exceed its bound, add up from sample to sample, or not be there at all.
 TEST(Device, JitterDelaysEachSampleByItself) {
   device_description description = plain_device();
   description.loop.jitter = 0.0004;
@@ -61,7 +61,8 @@ TEST(Device, JitterDelaysEachSampleByItself) {
   EXPECT_GT(most, 0.00039);
 }
 
-// The motion would go on for another time than the sample's, so that jitter would look like noise of the position.
+// If this failed, the motion would go on for another time than the sample's, so that jitter would look like noise of
+// the position.
 TEST(Device, JitteredSamplesShowTheMotionAtTheirOwnTime) {
   device_description description = plain_device();
   description.loop.jitter = 0.0004;
@@ -77,7 +78,7 @@ TEST(Device, JitteredSamplesShowTheMotionAtTheirOwnTime) {
   }
 }
 
-// A command would take effect at another sample than the device's loop delay says.
+// If this failed, a command would take effect at another sample than the device's loop delay says.
 TEST(Device, CommandsTakeEffectAfterTheLoopDelay) {
   for (unsigned delay : {0u, 1u, 3u}) {
     device_description description = plain_device();
@@ -93,7 +94,7 @@ TEST(Device, CommandsTakeEffectAfterTheLoopDelay) {
   }
 }
 
-// A command would act with its sample, or later than the device says.
+// If this failed, a command would act with its sample, or later than the device says.
 TEST(Device, CommandsActWithinTheSampleWhenTheDeviceSays) {
   const double earliest[] = {0, 2e-4, 1e-4}, latest[] = {0, 2e-4, 9e-4};
   for (int i = 0; i < 3; ++i) {
@@ -147,13 +148,13 @@ std::vector<unsigned char> bytes_of_a_run(std::uint64_t seed, std::vector<sample
   return bytes;
 }
 
-// Two runs from one seed would differ, or all seeds would give the same run.
+// If this failed, two runs from one seed would differ, or all seeds would give the same run.
 TEST(Device, SameSeedGivesTheSameBytes) {
   EXPECT_EQ(bytes_of_a_run(7), bytes_of_a_run(7));
   EXPECT_NE(bytes_of_a_run(7), bytes_of_a_run(8));
 }
 
-// A fault that is still to come would already disturb the run.
+// If this failed, a fault that is still to come would already disturb the run.
 TEST(Device, FaultsLeaveThePastAlone) {
   const std::vector<unsigned char> sound = bytes_of_a_run(7, {}, 500);
   for (const sample_fault_kind kind : {sample_fault_kind::lost, sample_fault_kind::repeated, sample_fault_kind::late,
@@ -186,7 +187,7 @@ std::vector<answer> answers_with(sample_fault_kind kind, double size = 0) {
   return answers;
 }
 
-// A fault would be answered with the wrong status, deliver a sample, or last longer than told.
+// If this failed, a fault would be answered with the wrong status, deliver a sample, or last longer than told.
 TEST(Device, FaultsWithoutASampleSayWhichTheyAre) {
   const auto check = [](sample_fault_kind kind, device_status status) {
     const std::vector<answer> answers = answers_with(kind);
@@ -203,7 +204,7 @@ TEST(Device, FaultsWithoutASampleSayWhichTheyAre) {
   check(sample_fault_kind::device_error, device_status::fault);
 }
 
-// A repeated sample would not be the one delivered last, whatever the caller's variable holds.
+// If this failed, a repeated sample would not be the one delivered last, whatever the caller's variable holds.
 TEST(Device, RepeatedSampleIsTheOneBefore) {
   scenario scene;
   scene.faults = {{sample_fault_kind::repeated, 3, 1, 0}};
@@ -216,7 +217,7 @@ TEST(Device, RepeatedSampleIsTheOneBefore) {
   EXPECT_EQ(sample.sequence, 2u);
 }
 
-// A position fault would not show, would show elsewhere, or would stay.
+// If this failed, a position fault would not show, would show elsewhere, or would stay.
 TEST(Device, FaultsOfThePositionShowInItAlone) {
   const std::vector<answer> sound = answers_with(sample_fault_kind::late, 0);
   const std::vector<answer> jumped = answers_with(sample_fault_kind::jump, -0.25);
@@ -231,7 +232,8 @@ TEST(Device, FaultsOfThePositionShowInItAlone) {
   }
 }
 
-// A late sample would carry the time at which it should have come, or the motion would not go on meanwhile.
+// If this failed, a late sample would carry the time at which it should have come, or the motion would not go on
+// meanwhile.
 TEST(Device, LateSamplesComeLate) {
   const std::vector<answer> late = answers_with(sample_fault_kind::late, 0.0105);
   EXPECT_EQ(late[9].sample.timestamp_ns, 9000000u);
@@ -241,7 +243,7 @@ TEST(Device, LateSamplesComeLate) {
   EXPECT_NEAR(late[12].sample.position, 0.1 * 0.033, 1e-6);
 }
 
-// A NaN or infinite demand would reach motor or brake.
+// If this failed, a NaN or infinite demand would reach motor or brake.
 TEST(Device, DemandsThatAreNoNumbersAreRefusedSafely) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();
@@ -259,7 +261,7 @@ TEST(Device, DemandsThatAreNoNumbersAreRefusedSafely) {
   }
 }
 
-// A description that cannot be simulated would be, with some result.
+// If this failed, a description that cannot be simulated would be, with some result.
 TEST(Device, RefusesWhatCannotBeSimulated) {
   EXPECT_EQ(simulated_device::refusal(plain_device(), {}), nullptr);
   const auto expect_refusal = [](const char* word, const device_description& description, const scenario& scene) {

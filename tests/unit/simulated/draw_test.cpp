@@ -12,7 +12,7 @@ constexpr int draws = 100000;
 // Five standard deviations of a mean of this many values of variance 1.
 const double five_sigma = 5 / std::sqrt(draws);
 
-// Uniform and normal numbers would not be what their names say.
+// If this failed, uniform and normal numbers would not be what their names say.
 TEST(Draw, HasTheMomentsOfItsDistribution) {
   double sum = 0, squares = 0, normal = 0, normal_squares = 0;
   for (int k = 0; k < draws; ++k) {
@@ -31,7 +31,7 @@ TEST(Draw, HasTheMomentsOfItsDistribution) {
   EXPECT_NEAR(normal_squares / draws, 1, five_sigma * std::sqrt(2));
 }
 
-// Jitter would follow the sensor's noise, one seed another, or one sample the one before.
+// If this failed, jitter would follow the sensor's noise, one seed another, or one sample the one before.
 TEST(Draw, PlacesAreIndependent) {
   double streams = 0, seeds = 0, neighbours = 0;
   for (std::uint64_t k = 0; k < draws; ++k) {

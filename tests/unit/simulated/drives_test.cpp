@@ -11,7 +11,7 @@ namespace {
 // A few roundings of sums and products of this size.
 constexpr double rounding = 1e-14;
 
-// The amplifier would have a wrong time constant, or act in steps of the sampling.
+// If this failed, the amplifier would have a wrong time constant, or act in steps of the sampling.
 TEST(Drives, AmplifierLagIsFirstOrder) {
   device_description description = plain_device();
   description.motor.amplifier_lag = 0.0007;
@@ -23,7 +23,8 @@ TEST(Drives, AmplifierLagIsFirstOrder) {
   EXPECT_NEAR(device.truth().motor_torque, -0.1 + (turned + 0.1) * std::exp(-0.002 / 0.0007), rounding);
 }
 
-// The motor's force would jump where the amplifier can only slew, or the lag would not take over near the end.
+// If this failed, the motor's force would jump where the amplifier can only slew, or the lag would not take over near
+// the end.
 TEST(Drives, TheMotorSlewsStraightAndThenSettles) {
   device_description description = plain_device();
   description.motor.slew = 50;
@@ -39,7 +40,7 @@ TEST(Drives, TheMotorSlewsStraightAndThenSettles) {
   EXPECT_NEAR(lagging.truth().motor_torque, 0.3 - 0.1 * std::exp(-(0.006 - 0.2 / 50) / 0.002), 10 * rounding);
 }
 
-// The lag would act on the damping instead of on the current, whose square it is.
+// If this failed, the lag would act on the damping instead of on the current, whose square it is.
 TEST(Drives, CoilLagActsOnTheCurrent) {
   device_description description = plain_device();
   description.brake.coil_lag = 0.002;
@@ -52,7 +53,8 @@ TEST(Drives, CoilLagActsOnTheCurrent) {
   EXPECT_NEAR(device.truth().brake_damping, left * left, 10 * rounding);
 }
 
-// The rail voltage would not limit the current's slope, or the lag would not take over where the slope is less.
+// If this failed, the rail voltage would not limit the current's slope, or the lag would not take over where the slope
+// is less.
 TEST(Drives, CoilSlewsStraightAndThenSettles) {
   device_description description = plain_device();
   description.brake.coil_lag = 0.001;
@@ -68,7 +70,7 @@ TEST(Drives, CoilSlewsStraightAndThenSettles) {
   EXPECT_NEAR(device.truth().brake_damping, 4 * current * current, 10 * rounding);
 }
 
-// The brake would not fade with speed, or it would fade at a speed other than the stated one.
+// If this failed, the brake would not fade with speed, or it would fade at a speed other than the stated one.
 TEST(Drives, BrakeFadesAtSpeed) {
   device_description description = plain_device();
   description.brake.critical_speed = 2;
@@ -84,7 +86,7 @@ TEST(Drives, BrakeFadesAtSpeed) {
   EXPECT_NEAR(fall, 10 / 0.2 * 0.001, 1e-9);
 }
 
-// What is left without current would be missing, or would be scaled like the rest.
+// If this failed, what is left without current would be missing, or would be scaled like the rest.
 TEST(Drives, ResidualDampingComesOnTop) {
   device_description description = plain_device();
   description.brake.residual_damping = 0.25;
@@ -102,7 +104,7 @@ TEST(Drives, ResidualDampingComesOnTop) {
   EXPECT_NEAR(strong.truth().brake_damping, 1.1 * 8 + 0.25, 10 * rounding);
 }
 
-// A drawn brake would leave its tolerance, or every seed would draw the same.
+// If this failed, a drawn brake would leave its tolerance, or every seed would draw the same.
 TEST(Drives, DrawnGainLiesWithinTheTolerance) {
   device_description description = plain_device();
   description.brake.tolerance = 0.05;
@@ -123,7 +125,7 @@ TEST(Drives, DrawnGainLiesWithinTheTolerance) {
   EXPECT_GT(most, 1.04);
 }
 
-// Demands beyond what motor and brake can do would be obeyed.
+// If this failed, demands beyond what motor and brake can do would be obeyed.
 TEST(Drives, DemandsAreCutToTheLimits) {
   device_description description = plain_device();
   description.motor.max_torque = 0.5;

@@ -8,7 +8,7 @@
 namespace dashpot::simulated {
 namespace {
 
-// A rigid obstacle would be penetrated, rebound, or lose the account of the energy it takes.
+// If this failed, a rigid obstacle would be penetrated, rebound, or lose the account of the energy it takes.
 TEST(EndStop, RigidObstacleTakesAllMomentum) {
   scenario scene;
   scene.user = mass_spring_damper(0.3, 0, 0);
@@ -24,7 +24,7 @@ TEST(EndStop, RigidObstacleTakesAllMomentum) {
   EXPECT_NEAR(device.ledger().hand, 0.3 * 0.4 * 0.4 / 2, 1e-13);
 }
 
-// A tool pressed against a rigid obstacle would creep into it, or would stick to it when pulled away.
+// If this failed, a tool pressed against a rigid obstacle would creep into it, or would stick to it when pulled away.
 TEST(EndStop, RigidObstacleHoldsAgainstPushOnly) {
   scenario scene;
   scene.low = end_stop{0};
@@ -38,7 +38,8 @@ TEST(EndStop, RigidObstacleHoldsAgainstPushOnly) {
   EXPECT_EQ(device.ledger().stop, 0);
 }
 
-// An elastic obstacle would not give the speed back, or would hold the tool for other than half a period.
+// If this failed, an elastic obstacle would not give the speed back, or would hold the tool for other than half a
+// period.
 TEST(EndStop, ElasticObstacleReturnsTheSpeed) {
   scenario scene;
   scene.initial_velocity = 0.5;
@@ -54,7 +55,7 @@ TEST(EndStop, ElasticObstacleReturnsTheSpeed) {
   EXPECT_NEAR(device.truth().position, -0.5 * (0.030 - 0.0002 - contact), 0.5 * error);
 }
 
-// A damped obstacle would pull at a tool that leaves it.
+// If this failed, a damped obstacle would pull at a tool that leaves it.
 TEST(EndStop, DampedObstacleNeverPulls) {
   scenario scene;
   scene.user = relaxed_hand();
@@ -73,8 +74,8 @@ TEST(EndStop, DampedObstacleNeverPulls) {
   EXPECT_GT(device.ledger().stop, 0.5 * absorbed);
 }
 
-// A stop that is reached at the very end of a step would leave a step of no length, and nothing that is a number: 1 N
-// for two samples makes 0.01 m/s, which is at 4 mm 400 samples later, 0.1 ps behind the surface.
+// If this failed, a stop that is reached at the very end of a step would leave a step of no length, and nothing that is
+// a number: 1 N for two samples makes 0.01 m/s, which is at 4 mm 400 samples later, 0.1 ps behind the surface.
 TEST(EndStop, MayBeReachedAtTheVeryEndOfAStep) {
   scenario scene;
   scene.high = end_stop{0.004 - 1e-15, 1000, 1};

@@ -14,7 +14,7 @@ device_description rubbing_device(double friction) {
   return device;
 }
 
-// A sliding tool would stop too early or too late, or would creep or tremble afterwards.
+// If this failed, a sliding tool would stop too early or too late, or would creep or tremble afterwards.
 TEST(Friction, StopsWhereItMustAndStaysThereExactly) {
   scenario scene;
   scene.initial_velocity = 0.3;
@@ -30,7 +30,8 @@ TEST(Friction, StopsWhereItMustAndStaysThereExactly) {
   EXPECT_NEAR(device.truth().friction_torque, 0.69, 1e-15);
 }
 
-// A force just below the friction would move the tool, or one above it would not, or with a wrong acceleration.
+// If this failed, a force just below the friction would move the tool, or one above it would not, or with a wrong
+// acceleration.
 TEST(Friction, OnlyTheExcessAccelerates) {
   simulated_device held(rubbing_device(0.5));
   run(held, 1000, {-0.5, 0});
@@ -53,14 +54,14 @@ double break_away_error(unsigned substeps) {
   return std::abs(device.truth().velocity - impulse / 0.2);
 }
 
-// Breaking away would happen at a sample instead of when the force passes the friction.
+// If this failed, breaking away would happen at a sample instead of when the force passes the friction.
 TEST(Friction, BreaksAwayBetweenSamples) {
   EXPECT_LT(break_away_error(4), 1e-9);
   // Order 4, but the first piece after breaking away has a length of its own.
   EXPECT_NEAR(break_away_error(1) / break_away_error(2), 16, 4);
 }
 
-// Only the first event within a step would be heeded.
+// If this failed, only the first event within a step would be heeded.
 TEST(Friction, StopsAndBreaksAwayWithinOneStep) {
   device_description description = rubbing_device(0.5);
   description.loop.sample_period = 0.005;
@@ -76,7 +77,8 @@ TEST(Friction, StopsAndBreaksAwayWithinOneStep) {
   EXPECT_NEAR(device.truth().velocity, impulse / 0.2, impulse / 0.2 * std::pow(0.25, 4) / 720);
 }
 
-// The amplitude of an oscillation under friction would not fall by 2 f/K each half cycle, or it would not end stuck.
+// If this failed, the amplitude of an oscillation under friction would not fall by 2 f/K each half cycle, or it would
+// not end stuck.
 TEST(Friction, OscillationDecaysInStraightLinesAndSticks) {
   const double stiffness = 500, friction = 0.4, start = 0.01;
   scenario scene;

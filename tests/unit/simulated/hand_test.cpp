@@ -39,7 +39,7 @@ hand random_passive_hand(unsigned seed, unsigned states) {
   return user;
 }
 
-// A hand that can push by itself would be taken for a passive one, or the other way round.
+// If this failed, a hand that can push by itself would be taken for a passive one, or the other way round.
 TEST(Hand, PassivityIsRecognised) {
   for (const hand& user : {no_hand(), relaxed_hand(), firm_hand(), stiff_grasp()}) EXPECT_TRUE(is_passive(user));
   for (unsigned seed = 0; seed < 100; ++seed) {
@@ -61,7 +61,7 @@ TEST(Hand, PassivityIsRecognised) {
   EXPECT_FALSE(is_passive(light));
 }
 
-// A hand that intends nothing would feed energy into the device, whatever the motor does to it.
+// If this failed, a hand that intends nothing would feed energy into the device, whatever the motor does to it.
 TEST(Hand, PassiveHandNeverGivesMoreThanItGot) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     scenario scene;
@@ -75,7 +75,7 @@ TEST(Hand, PassiveHandNeverGivesMoreThanItGot) {
   }
 }
 
-// The figures of the literature would be attached to the wrong letters.
+// If this failed, the figures of the literature would be attached to the wrong letters.
 TEST(Hand, SetsOfTheLiteratureHaveTheirValues) {
   const auto is = [](const hand& user, double mass, double damping, double stiffness) {
     EXPECT_EQ(user.mass, mass);
@@ -87,7 +87,7 @@ TEST(Hand, SetsOfTheLiteratureHaveTheirValues) {
   is(stiff_grasp(), 0, 8, 400);
 }
 
-// A trajectory would jump at its knots, or its velocity would not be its position's slope.
+// If this failed, a trajectory would jump at its knots, or its velocity would not be its position's slope.
 TEST(Trajectory, VelocityIsTheSlopeOfPosition) {
   const double step = 1e-6;
   for (const trajectory& path : {hold_at(0.1), sine(0.3, 2, 0.4, 0.1), through({{0.1, 0}, {0.5, 1}, {0.7, -2}}),

@@ -34,7 +34,7 @@ scenario lively_scene(std::uint64_t seed) {
   return scene;
 }
 
-// Some force would do work that nobody accounts for, or a step across an event would lose energy.
+// If this failed, some force would do work that nobody accounts for, or a step across an event would lose energy.
 TEST(Ledger, ClosesOverARunWithEverything) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     simulated_device device(imperfect_arm(), lively_scene(seed));
@@ -48,7 +48,7 @@ TEST(Ledger, ClosesOverARunWithEverything) {
   }
 }
 
-// Friction, damping or brake would give energy back.
+// If this failed, friction, damping or brake would give energy back.
 TEST(Ledger, DissipationNeverFalls) {
   simulated_device device(imperfect_arm(), lively_scene(3));
   device_sample sample;
@@ -63,7 +63,8 @@ TEST(Ledger, DissipationNeverFalls) {
   }
 }
 
-// An entry would bear the name of another force: each is integrated here once more from what the device shows.
+// If this failed, an entry would bear the name of another force: each is integrated here once more from what the device
+// shows.
 TEST(Ledger, EntriesAreTheWorkOfTheirForces) {
   device_description arm = imperfect_arm();
   arm.loop.jitter = 0;

@@ -45,7 +45,7 @@ double swing_error(unsigned substeps) {
   return std::abs(device.truth().tool_position - device.truth().position - expected);
 }
 
-// The mode would have another frequency, damping or deflection than the file states.
+// If this failed, the mode would have another frequency, damping or deflection than the file states.
 TEST(Mode, SwingsAsItsClosedForm) {
   const device_description description = giving_device();
   const double omega = 2 * pi * description.mechanics.mode.frequency, size = 3 / (0.15 * omega * omega);
@@ -54,7 +54,7 @@ TEST(Mode, SwingsAsItsClosedForm) {
   EXPECT_LT(swing_error(0), size * omega * 0.030 * std::pow(0.1, 4) / 720);
 }
 
-// The centre of mass would be moved by the structure's own force.
+// If this failed, the centre of mass would be moved by the structure's own force.
 TEST(Mode, MovesItsCentreOfMassByTheMotorAlone) {
   simulated_device device(giving_device());
   run(device, 101, {3, 0});
@@ -62,7 +62,8 @@ TEST(Mode, MovesItsCentreOfMassByTheMotorAlone) {
   EXPECT_NEAR((0.15 * now.velocity + 0.05 * now.tool_velocity) / 0.2, 3 / 0.2 * 0.100, 1e-12);
 }
 
-// A device whose structure hardly gives would move otherwise than a rigid one: the deflection falls as 1/f².
+// If this failed, a device whose structure hardly gives would move otherwise than a rigid one: the deflection falls as
+// 1/f².
 TEST(Mode, IsRigidInTheLimit) {
   const auto position_with = [](double frequency) {
     device_description description = giving_device();
@@ -86,8 +87,8 @@ TEST(Mode, IsRigidInTheLimit) {
   EXPECT_NEAR(off / less, 4, 0.4);
 }
 
-// Within its backlash g the shaft would not be free, or g not be as wide as stated. The tool is held by a spring K and
-// the motor pushes with F, then −F: the shaft rests at ±(g/2 + F/k + F/K).
+// If this failed, within its backlash g the shaft would not be free, or g not be as wide as stated. The tool is held by
+// a spring K and the motor pushes with F, then −F: the shaft rests at ±(g/2 + F/k + F/K).
 TEST(Backlash, LeavesTheShaftFreeOverItsWidth) {
   device_description description = giving_device();
   description.mechanics.damping = 20;
@@ -103,7 +104,8 @@ TEST(Backlash, LeavesTheShaftFreeOverItsWidth) {
   EXPECT_NEAR(device.truth().tool_position, -0.5 / 800, 1e-9);
 }
 
-// The structure would pull within its backlash, or across it: a tool that flies between its sides keeps its speed.
+// If this failed, the structure would pull within its backlash, or across it: a tool that flies between its sides keeps
+// its speed.
 TEST(Backlash, DoesNotPull) {
   device_description description = giving_device();
   description.mechanics.backlash = 0.01;
@@ -114,8 +116,8 @@ TEST(Backlash, DoesNotPull) {
   EXPECT_NEAR(device.truth().velocity, 1 / 0.15 * 0.002, 1e-9);
 }
 
-// At the end of an impact the structure would pull. In contact x'' + 2ζω x' + ω² x = 0 from x = 0, x' = v; the push
-// k x + c x' is gone at ω_d t = π − 2 asin ζ, before x is 0 again, and the two part with what x' is then.
+// If this failed, at the end of an impact the structure would pull. In contact x'' + 2ζω x' + ω² x = 0 from x = 0, x' =
+// v; the push k x + c x' is gone at ω_d t = π − 2 asin ζ, before x is 0 again, and the two part with what x' is then.
 TEST(Backlash, PartsWhenThePushIsGone) {
   device_description description = giving_device();
   description.mechanics.backlash = 0.01;
@@ -160,7 +162,8 @@ actuation restless_demand(std::uint64_t seed, std::uint64_t k) {
           0.008 * draw_uniform(seed, draw_stream::jitter, 2000000 + k / 11)};
 }
 
-// Some force of the structure would do work that nobody accounts for, or an engagement would gain or lose energy.
+// If this failed, some force of the structure would do work that nobody accounts for, or an engagement would gain or
+// lose energy.
 TEST(Mode, LedgerClosesWithEverything) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     simulated_device device(everything_that_gives(seed), soft_lively_scene(seed));
@@ -174,7 +177,8 @@ TEST(Mode, LedgerClosesWithEverything) {
   }
 }
 
-// Spring, damper and backlash would give more than they took: they start relaxed, and what they hold is not negative.
+// If this failed, spring, damper and backlash would give more than they took: they start relaxed, and what they hold is
+// not negative.
 TEST(Mode, NeverGivesMoreThanItTook) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     simulated_device device(everything_that_gives(seed), soft_lively_scene(seed));
@@ -188,7 +192,7 @@ TEST(Mode, NeverGivesMoreThanItTook) {
   }
 }
 
-// The encoder would see the tool: it is the shaft's.
+// If this failed, the encoder would see the tool: it is the shaft's.
 TEST(Mode, EncoderIsOnTheShaft) {
   simulated_device device(giving_device());
   const device_sample sample = run(device, 21, {3, 0});
@@ -208,8 +212,8 @@ std::vector<double> torques(double noise, std::uint64_t seed, unsigned samples) 
   return all;
 }
 
-// The amplifier's noise would have another size than stated, a mean, or a memory. Of N samples the rms is off by
-// rms/√(2N), mean and correlation by 1/√N of it: four of these.
+// If this failed, the amplifier's noise would have another size than stated, a mean, or a memory. Of N samples the rms
+// is off by rms/√(2N), mean and correlation by 1/√N of it: four of these.
 TEST(MotorNoise, IsWhiteAndOfTheStatedSize) {
   constexpr unsigned samples = 20001;
   const double noise = 0.03, n = samples - 1;
@@ -226,14 +230,14 @@ TEST(MotorNoise, IsWhiteAndOfTheStatedSize) {
   EXPECT_NEAR(correlation, 0, 4 * noise * noise / std::sqrt(n));
 }
 
-// The same seed would give another run, or another seed the same.
+// If this failed, the same seed would give another run, or another seed the same.
 TEST(MotorNoise, DependsOnItsSeedAlone) {
   EXPECT_EQ(torques(0.03, 7, 100), torques(0.03, 7, 100));
   EXPECT_NE(torques(0.03, 7, 100), torques(0.03, 8, 100));
   EXPECT_EQ(torques(0, 7, 100), torques(0, 8, 100));
 }
 
-// What the structure makes impossible to simulate would be simulated as something else.
+// If this failed, what the structure makes impossible to simulate would be simulated as something else.
 TEST(Mode, RefusesWhatItDoesNotSimulate) {
   const device_description device = giving_device();
   scenario rigid, prescribed;

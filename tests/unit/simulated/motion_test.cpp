@@ -31,7 +31,7 @@ double oscillation_error(unsigned substeps) {
   return std::abs(device.truth().position - expected);
 }
 
-// A free oscillation of tool and hand would have a wrong frequency, damping or rest position.
+// If this failed, a free oscillation of tool and hand would have a wrong frequency, damping or rest position.
 TEST(Motion, FreeOscillationConvergesToItsClosedForm) {
   expect_order_four(oscillation_error(2), oscillation_error(4));
   // Of its own accord the plant takes two steps a period; each turns the phase by (ωh)⁵/720 too little or too much.
@@ -49,7 +49,7 @@ double brake_decay_error(unsigned substeps) {
   return std::abs(device.truth().position - expected);
 }
 
-// A braked tool would not coast v J/b further, or not at the right pace.
+// If this failed, a braked tool would not coast v J/b further, or not at the right pace.
 TEST(Motion, BrakeDecayConvergesToItsClosedForm) {
   expect_order_four(brake_decay_error(1), brake_decay_error(2));
   scenario scene;
@@ -81,13 +81,13 @@ double maxwell_hand_error(unsigned substeps, double stiffness = 300, double visc
   return std::abs(device.truth().velocity - velocity.real());
 }
 
-// A hand with inner states, here a spring and a damper in series, would act as something else.
+// If this failed, a hand with inner states, here a spring and a damper in series, would act as something else.
 TEST(Motion, HandWithItsOwnStateConvergesToItsClosedForm) {
   expect_order_four(maxwell_hand_error(1), maxwell_hand_error(2));
   EXPECT_LT(maxwell_hand_error(0), 1e-7);
 }
 
-// The hand's mass, a constant motor torque or the arm radius would enter with a wrong factor.
+// If this failed, the hand's mass, a constant motor torque or the arm radius would enter with a wrong factor.
 TEST(Motion, ConstantTorqueAcceleratesJointAndHandTogether) {
   device_description arm = plain_device();
   arm.motion = motion::rotation;
@@ -104,7 +104,7 @@ TEST(Motion, ConstantTorqueAcceleratesJointAndHandTogether) {
   EXPECT_NEAR(device.truth().hand_torque, -0.4 * 0.05 * 0.05 * 0.01 / inertia, 1e-15);
 }
 
-// What the hand and the stops are would depend on whether an arm lies between them and the joint.
+// If this failed, what the hand and the stops are would depend on whether an arm lies between them and the joint.
 TEST(Motion, ArmMakesNoDifferenceAtTheTool) {
   scenario scene;
   scene.user = mass_spring_damper(0.3, 4, 200);
@@ -132,7 +132,7 @@ TEST(Motion, ArmMakesNoDifferenceAtTheTool) {
   EXPECT_NEAR(joint.ledger().hand, tool.ledger().hand, 1e-9);
 }
 
-// A hand driven along a sine would follow it with a wrong amplitude or phase.
+// If this failed, a hand driven along a sine would follow it with a wrong amplitude or phase.
 TEST(Motion, DrivenHandFollowsItsFrequencyResponse) {
   const double frequency = 3, rate = 2 * 3.14159265358979323846 * frequency;
   scenario scene;
@@ -147,7 +147,7 @@ TEST(Motion, DrivenHandFollowsItsFrequencyResponse) {
   EXPECT_NEAR(device.truth().position, expected.imag(), 0.02 * std::exp(-6.5 / 1.5 * 4));
 }
 
-// An intention would reach the hand's inner states late, twice, or not at all.
+// If this failed, an intention would reach the hand's inner states late, twice, or not at all.
 TEST(Motion, DrivenHandWithItsOwnStateFollowsItsFrequencyResponse) {
   const double frequency = 3, rate = 2 * 3.14159265358979323846 * frequency, stiffness = 300, viscosity = 4;
   scenario scene;
@@ -168,7 +168,7 @@ TEST(Motion, DrivenHandWithItsOwnStateFollowsItsFrequencyResponse) {
 // What half a time constant is wrong by, of what happens within it: the steps are no longer.
 const double step_error = std::pow(0.5, 4) / 720;
 
-// An amplifier's lag much shorter than the period would be stepped over.
+// If this failed, an amplifier's lag much shorter than the period would be stepped over.
 TEST(Motion, StepsAreShortAgainstTheAmplifier) {
   device_description description = plain_device();
   description.motor.amplifier_lag = 0.00005;
@@ -180,7 +180,7 @@ TEST(Motion, StepsAreShortAgainstTheAmplifier) {
   EXPECT_NEAR(device.truth().velocity, expected, acceleration * lag * step_error);
 }
 
-// A coil's lag much shorter than the period would be stepped over.
+// If this failed, a coil's lag much shorter than the period would be stepped over.
 TEST(Motion, StepsAreShortAgainstTheCoil) {
   const double lag = 0.00005, time = 0.001;
   device_description description = plain_device();
@@ -195,7 +195,7 @@ TEST(Motion, StepsAreShortAgainstTheCoil) {
   EXPECT_NEAR(std::log(0.5 / device.truth().velocity), fall, 300 * lag * step_error);
 }
 
-// A brake that stops the tool within a period would be stepped over.
+// If this failed, a brake that stops the tool within a period would be stepped over.
 TEST(Motion, StepsAreShortAgainstTheBrake) {
   device_description description = plain_device();
   description.brake.max_damping = 1000;
@@ -207,14 +207,14 @@ TEST(Motion, StepsAreShortAgainstTheBrake) {
   EXPECT_NEAR(device.truth().position, way * (1 - std::exp(-1000 / 0.2 * 0.001)), way * step_error);
 }
 
-// A hand whose inner states are much faster than the period would be stepped over.
+// If this failed, a hand whose inner states are much faster than the period would be stepped over.
 TEST(Motion, StepsAreShortAgainstTheHand) {
   const double stiffness = 2000, viscosity = 0.1, rate = stiffness / viscosity;
   const double way_lost = viscosity / 0.2 / rate;  // of the velocity, while the hand's force builds up
   EXPECT_LT(maxwell_hand_error(0, stiffness, viscosity, 1), 0.3 * way_lost * step_error);
 }
 
-// A simulation that runs away would come back as a small number.
+// If this failed, a simulation that runs away would come back as a small number.
 TEST(Motion, RunawayStaysARunaway) {
   device_description description = plain_device();
   description.encoder.step = 1e-6;
@@ -223,7 +223,8 @@ TEST(Motion, RunawayStaysARunaway) {
   EXPECT_GT(sample.position, 1e290);
 }
 
-// A hand that has let go would still push, or would take its speed away from the tool, or let go too early or late.
+// If this failed, a hand that has let go would still push, or would take its speed away from the tool, or let go too
+// early or late.
 TEST(Motion, ReleasedToolGoesOnAlone) {
   scenario scene;
   scene.user = mass_spring_damper(0.5, 8, 0);
@@ -242,7 +243,7 @@ TEST(Motion, ReleasedToolGoesOnAlone) {
   EXPECT_EQ(device.ledger().hand, work);
 }
 
-// A hand that lets go at a sample would hold on for one more period.
+// If this failed, a hand that lets go at a sample would hold on for one more period.
 TEST(Motion, ReleaseAtASampleIsNotLate) {
   scenario scene;
   scene.user = stiff_grasp();
@@ -255,7 +256,8 @@ TEST(Motion, ReleaseAtASampleIsNotLate) {
   EXPECT_NEAR(device.truth().velocity, speed, 1e-15);
 }
 
-// A tool that is led along a prescribed motion would be elsewhere, or the work of leading it would be miscounted.
+// If this failed, a tool that is led along a prescribed motion would be elsewhere, or the work of leading it would be
+// miscounted.
 TEST(Motion, PrescribedMotionIsFollowedAndPaidFor) {
   scenario scene;
   scene.intended = sine(0.02, 1);

@@ -24,7 +24,8 @@ scenario led_along(trajectory path) {
   return scene;
 }
 
-// The encoder would round the wrong way, above all at negative positions, or give a finer position than its step.
+// If this failed, the encoder would round the wrong way, above all at negative positions, or give a finer position than
+// its step.
 TEST(Sensors, EncoderQuantisesAsDescribed) {
   simulated_device floored(coded_device(quantiser::floor), led_along(sine(0.001, 1.3)));
   simulated_device rounded(coded_device(quantiser::round), led_along(sine(0.001, 1.3)));
@@ -40,7 +41,7 @@ TEST(Sensors, EncoderQuantisesAsDescribed) {
   }
 }
 
-// An ideal encoder would quantise after all, or invent edges.
+// If this failed, an ideal encoder would quantise after all, or invent edges.
 TEST(Sensors, IdealEncoderShowsTheTruth) {
   simulated_device device(plain_device(), led_along(sine(0.001, 1.3)));
   const device_sample sample = run(device, 78);
@@ -49,7 +50,7 @@ TEST(Sensors, IdealEncoderShowsTheTruth) {
   EXPECT_EQ(sample.edge_time_ns, 0u);
 }
 
-// Edge times would be those of the sampling, or of another edge: inverse-time estimators live on them.
+// If this failed, edge times would be those of the sampling, or of another edge: inverse-time estimators live on them.
 TEST(Sensors, EdgesCarryTheInstantOfTheCrossing) {
   const double speed = 0.0123;
   simulated_device up(coded_device(quantiser::floor), led_along(through({{0, 1e-6}, {1, 1e-6 + speed}})));
@@ -70,7 +71,7 @@ TEST(Sensors, EdgesCarryTheInstantOfTheCrossing) {
   EXPECT_GT(sample.edge_time_ns, 0u);
 }
 
-// An edge that is crossed to and fro between two samples would not be noticed.
+// If this failed, an edge that is crossed to and fro between two samples would not be noticed.
 TEST(Sensors, EdgeIsSeenAtAReversalBetweenSamples) {
   // A peak 0.1 µm above the first edge, half-way between two samples; beyond the edge for 2 · 0.14 ms.
   const double curvature = 10;
@@ -89,7 +90,7 @@ TEST(Sensors, EdgeIsSeenAtAReversalBetweenSamples) {
   EXPECT_NEAR(static_cast<double>(after.edge_time_ns), crossing * 1e9, 1);
 }
 
-// A device without a velocity sensor would show a velocity that no encoder can know.
+// If this failed, a device without a velocity sensor would show a velocity that no encoder can know.
 TEST(Sensors, VelocityIsShownOnlyWhereItIsSensed) {
   device_description description = plain_device();
   simulated_device without(description, led_along(through({{0, 0}, {1, 0.2}})));
@@ -99,7 +100,7 @@ TEST(Sensors, VelocityIsShownOnlyWhereItIsSensed) {
   EXPECT_EQ(run(with, 10).velocity, 0.2);
 }
 
-// The sensor's bandwidth would be wrong by 2π, or acted on per sample instead of in time.
+// If this failed, the sensor's bandwidth would be wrong by 2π, or acted on per sample instead of in time.
 TEST(Sensors, VelocitySensorIsFirstOrder) {
   device_description description = plain_device();
   description.velocity.estimator = estimator_kind::sensor;
@@ -114,7 +115,7 @@ TEST(Sensors, VelocitySensorIsFirstOrder) {
   EXPECT_NEAR(sample.velocity, expected, 1e-14);
 }
 
-// The sensor's noise would not have the stated rms, or not be centred.
+// If this failed, the sensor's noise would not have the stated rms, or not be centred.
 TEST(Sensors, VelocityNoiseHasTheStatedRms) {
   device_description description = plain_device();
   description.velocity.estimator = estimator_kind::sensor;

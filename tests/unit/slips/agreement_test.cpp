@@ -91,38 +91,38 @@ std::string first_failure_of(std::string (*complaint)(const compiler::Network&, 
 
 }  // namespace
 
-// The solver of coupled slips, its tables, or a closed form would give the forces of another network.
+// If this failed, the solver of coupled slips, its tables, or a closed form would give the forces of another network.
 TEST(SlipAgreement, BackwardEulerIsThatOfTheElements) {
   EXPECT_EQ(first_failure_of(disagreement, compiler::Scheme::backward_euler), "");
 }
 
-// The exact scheme would differ where there is nothing to relax.
+// If this failed, the exact scheme would differ where there is nothing to relax.
 TEST(SlipAgreement, ExactIsThatOfTheElementsWithoutModes) {
   EXPECT_EQ(first_failure_of(disagreement, compiler::Scheme::exact), "");
 }
 
-// A tissue with slips would give energy away.
+// If this failed, a tissue with slips would give energy away.
 TEST(SlipEnergy, NeverRisesByMoreThanTheWorkInBackwardEuler) {
   EXPECT_EQ(first_failure_of(gain_of_energy, compiler::Scheme::backward_euler), "");
 }
 
-// Exact modes inside a slip network would break the convexity that backward Euler has by itself.
+// If this failed, exact modes inside a slip network would break the convexity that backward Euler has by itself.
 TEST(SlipEnergy, NeverRisesByMoreThanTheWorkInTheExactScheme) {
   EXPECT_EQ(first_failure_of(gain_of_energy, compiler::Scheme::exact), "");
 }
 
-// Slips outside trees, stars and loops of them included, would have other forces.
+// If this failed, slips outside trees, stars and loops of them included, would have other forces.
 TEST(SlipAgreement, GraphsAreThoseOfTheElements) {
   EXPECT_EQ(first_failure_of(disagreement, compiler::Scheme::backward_euler, Topology::graph), "");
 }
 
-// They would give energy away.
+// If this failed, they would give energy away.
 TEST(SlipEnergy, NeverRisesByMoreThanTheWorkInGraphs) {
   for (const compiler::Scheme scheme : {compiler::Scheme::exact, compiler::Scheme::backward_euler})
     EXPECT_EQ(first_failure_of(gain_of_energy, scheme, Topology::graph), "");
 }
 
-// The graphs above would hardly ever be other than trees, and the tests prove nothing about them.
+// If this failed, the graphs above would hardly ever be other than trees, and the tests prove nothing about them.
 TEST(SlipAgreement, CoversSlipsOutsideTrees) {
   std::size_t outside = 0, many = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
@@ -137,7 +137,7 @@ TEST(SlipAgreement, CoversSlipsOutsideTrees) {
   EXPECT_GE(many, 20u);
 }
 
-// The networks above would hardly ever have coupled slips, and the tests prove nothing about them.
+// If this failed, the networks above would hardly ever have coupled slips, and the tests prove nothing about them.
 TEST(SlipAgreement, CoversCoupledSlips) {
   std::size_t coupled = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed)

@@ -116,8 +116,8 @@ struct SlowBrake {
 };
 
 // V_k − V_{k−1} ≤ m_k Δu_k whatever the brake does: it takes no part, but is commanded no more than `most_damping`.
-// Empty, or where that fails. Rounding: 1e-13 of the largest energy, `shared(damping, change)` [J] among them, and
-// `rounding` [N/m] Δu².
+// Returns where that fails; empty if nowhere. Rounding: 1e-13 of the largest energy, `shared(damping, change)` [J]
+// among them, and `rounding` [N/m] Δu².
 template <class SharedEnergy>
 std::string energy_from_motor(const compiler::Compilation& compilation, const std::vector<double>& motion,
                               double most_damping, SharedEnergy shared, double rounding) {
@@ -140,7 +140,8 @@ std::string energy_from_motor(const compiler::Compilation& compilation, const st
   return "";
 }
 
-// The same split, with a ramp that goes its way at once, no coil and an estimate of no memory allowed for.
+// The same split, but with a ramp that takes its whole way at once, and without allowing for a coil or for the
+// estimate's memory.
 inline compiler::UpdateLaw bold(compiler::Compilation c) {
   c.decomposition.slips.ramp = 1;
   c.decomposition.slips.memory = 0;

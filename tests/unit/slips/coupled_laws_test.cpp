@@ -85,7 +85,8 @@ std::string said_of(const compiler::Network& network, const char* law) {
 
 }  // namespace
 
-// The motor would render the damper beside a slip that the brake makes already, or the brake not make it.
+// If this failed, the motor would render the damper beside a slip that the brake makes already, or the brake not make
+// it.
 TEST(CoupledLaws, GatedLeavesDampersBesideSlipsToTheBrake) {
   const compiler::Compilation c = decided(written_network(two_slips), "gated");
   ASSERT_EQ(c.decomposition.slips.components.front().law, SlipLaw::gated);
@@ -95,8 +96,8 @@ TEST(CoupledLaws, GatedLeavesDampersBesideSlipsToTheBrake) {
   for (std::size_t i = 6; i < 400; ++i) EXPECT_NEAR(commands[i].force, 0.4, 1e-15) << i;
 }
 
-// In a chain of slips without dampers only the weakest would ever give way: the others' dampers would be the brake's
-// and never asked for.
+// If this failed, in a chain of slips without dampers only the weakest would ever give way: the others' dampers would
+// be the brake's and never asked for.
 TEST(CoupledLaws, GatedTakesTheDamperOfTheWeakestInAChain) {
   const compiler::Network chain = written_network(R"({"series": [{"spring": 1000},
       {"parallel": [{"slip": 0.4}, {"damper": 3}]}, {"parallel": [{"slip": 0.2}, {"damper": 5}]}]})");
@@ -110,7 +111,7 @@ TEST(CoupledLaws, GatedTakesTheDamperOfTheWeakestInAChain) {
   EXPECT_DOUBLE_EQ(commands_along(c.law, slide(0.05, 1000)).back().damping, 5);
 }
 
-// The motor alone would give more than it took, under whatever brake and coil.
+// If this failed, the motor alone would give more than it took, under whatever brake and coil.
 TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergy) {
   for (const Topology topology : {Topology::tree, Topology::graph})
     EXPECT_EQ(first_failure(1, repetitions(80, 20000), coupled_recipe(topology),
@@ -126,7 +127,7 @@ TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergyBehindAContact) {
               "");
 }
 
-// The random networks above would hardly ever have the law, and the tests prove nothing.
+// If this failed, the random networks above would hardly ever have the law, and the tests prove nothing.
 TEST(CoupledLaws, RandomNetworksHaveTheGatedLaw) {
   std::size_t trees = 0, graphs = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -141,7 +142,8 @@ TEST(CoupledLaws, RandomNetworksHaveTheGatedLaw) {
   EXPECT_GE(graphs, 3u);
 }
 
-// The memory, the coil or the tolerance would not be allowed for in what the motor takes back of the brake.
+// If this failed, the memory, the coil or the tolerance would not be allowed for in what the motor takes back of the
+// brake.
 TEST(CoupledLaws, RampedCompensationNeverMakesEnergy) {
   const SlowBrake slow;
   for (const Subject& subject : subjects()) {
@@ -167,7 +169,7 @@ TEST(CoupledLaws, CompensationThatIsNotHeldMakesEnergy) {
   }
 }
 
-// Compensation would be held for ever: in a long slide the whole force is that of the network.
+// If this failed, compensation would be held for ever: in a long slide the whole force is that of the network.
 TEST(CoupledLaws, LongSlidesAreCompensated) {
   SlowBrake slow;
   slow.device.description.brake.tolerance = 0;
@@ -184,7 +186,7 @@ TEST(CoupledLaws, LongSlidesAreCompensated) {
   }
 }
 
-// A tool that leaves the tissue and comes back would be pushed by what the brake earned before.
+// If this failed, a tool that leaves the tissue and comes back would be pushed by what the brake earned before.
 TEST(CoupledLaws, ATouchBeginsAnew) {
   const SlowBrake slow;
   const compiler::Compilation c = decided(pressed_slips(), "ramped", &slow.device);
@@ -206,7 +208,7 @@ TEST(CoupledLaws, ATouchBeginsAnew) {
   }
 }
 
-// The command would ask more of the coil than it can do in a period.
+// If this failed, the command would ask more of the coil than it can do in a period.
 TEST(CoupledLaws, TheCoilCanFollow) {
   const SlowBrake slow;
   for (const char* law : {"gated", "ramped"})
@@ -227,7 +229,7 @@ TEST(CoupledLaws, TheCoilCanFollow) {
     }
 }
 
-// A slow slide over a quantised encoder would make the brake toggle.
+// If this failed, a slow slide over a quantised encoder would make the brake toggle.
 TEST(CoupledLaws, DoNotToggleOverAnEncoder) {
   const double step = 30e-6, speed = 0.01;
   const compiler::Device device = device_with(step), blind = device_with(0);
@@ -249,7 +251,7 @@ TEST(CoupledLaws, DoNotToggleOverAnEncoder) {
   EXPECT_GT(literal, 300u);
 }
 
-// What cannot be would be something else in silence.
+// If this failed, a choice that cannot be made would become another in silence.
 TEST(CoupledLaws, WhatCannotBeIsRefused) {
   const compiler::Network bare =
       written_network(R"({"series": [{"parallel": [{"spring": 500}, {"damper": 5}]}, {"slip": 0.4}]})");

@@ -35,7 +35,8 @@ std::string gain_without_brake(const compiler::Network& network) {
 
 }  // namespace
 
-// The brake would keep the damping of slips that hold, or make another than b∞ = 1/(1/2 + 1/3) when one slides.
+// If this failed, the brake would keep the damping of slips that hold, or make another than b∞ = 1/(1/2 + 1/3) when one
+// slides.
 TEST(CoupledRegimes, FollowTheSlipsThatSlide) {
   const compiler::Compilation c = decided(written_network(two_slips), "velocity-free");
   ASSERT_TRUE(c.law.networks.empty());
@@ -51,7 +52,7 @@ TEST(CoupledRegimes, FollowTheSlipsThatSlide) {
   EXPECT_NEAR(fast.back().damping * 0.5 + fast.back().force, 0.4 + 3 * (2 * 0.5 + 1 - 0.4) / 5, 1e-12);
 }
 
-// A bridge of dampers would be taken for one that its slip always closes, or never.
+// If this failed, a bridge of dampers would be taken for one that its slip always closes, or never.
 TEST(CoupledRegimes, FollowSlipsOutsideATree) {
   const compiler::Compilation c = decided(written_network(damper_bridge), "velocity-free");
   ASSERT_EQ(c.law.networks.size(), 1u);
@@ -65,7 +66,8 @@ TEST(CoupledRegimes, FollowSlipsOutsideATree) {
   for (std::size_t i = 0; i < 20; ++i) EXPECT_NEAR(commands[i].damping, i < 10 ? closed : open, 1e-14) << i;
 }
 
-// Behind a contact the brake would take nothing of what slips leave it, or keep it when the tool has left.
+// If this failed, behind a contact the brake would take nothing of what slips leave it, or keep it when the tool has
+// left.
 TEST(CoupledRegimes, FollowTheSlipsBehindAContact) {
   compiler::Network network = written_network(two_slips);
   network.contact = compiler::Contact{0, {}};
@@ -78,7 +80,7 @@ TEST(CoupledRegimes, FollowTheSlipsBehindAContact) {
   for (const command<double>& now : commands) EXPECT_GE(now.force, 0);
 }
 
-// A component with more slips than regimes are listed for would lose what holds in all of them.
+// If this failed, a component with more slips than regimes are listed for would lose what holds in all of them.
 TEST(CoupledRegimes, ManySlipsLeaveWhatHoldsInAllRegimes) {
   std::string branches = R"({"damper": 2})";
   for (int i = 1; i <= 7; ++i)
@@ -90,7 +92,7 @@ TEST(CoupledRegimes, ManySlipsLeaveWhatHoldsInAllRegimes) {
   for (const auto& now : commands_along(c.law, slide(0.2, 50))) EXPECT_DOUBLE_EQ(now.damping, both);
 }
 
-// A slow slide over a quantised encoder would make the brake toggle.
+// If this failed, a slow slide over a quantised encoder would make the brake toggle.
 TEST(CoupledRegimes, DoNotToggleOverAnEncoder) {
   const double step = 30e-6, speed = 0.01;
   const compiler::Device device = device_with(step), blind = device_with(0);
@@ -114,8 +116,8 @@ TEST(CoupledRegimes, DoNotToggleOverAnEncoder) {
     EXPECT_EQ(calm[i].force, literal[i].force) << "the hysteresis is of the command only";
 }
 
-// A tool held in a tissue whose friction leaves the brake a part would feel it come and go with the tremor of the hand:
-// in to 2.3 mm, back to 2 mm, so that friction is well below what it holds.
+// If this failed, a tool held in a tissue whose friction leaves the brake a part would feel it come and go with the
+// tremor of the hand: in to 2.3 mm, back to 2 mm, so that friction is well below what it holds.
 TEST(CoupledRegimes, HeldBehindAContactNeverToggles) {
   const double step = 30e-6;
   const compiler::Device device = device_with(step);
@@ -135,7 +137,7 @@ TEST(CoupledRegimes, HeldBehindAContactNeverToggles) {
   EXPECT_EQ(commands.back().damping, 7);
 }
 
-// The command would ask more of the coil than it can do in a period.
+// If this failed, the command would ask more of the coil than it can do in a period.
 TEST(CoupledRegimes, TheCoilCanFollow) {
   compiler::Device device = device_with(0);
   device.description.brake.coil_lag = 0.02;
@@ -159,7 +161,7 @@ TEST(CoupledRegimes, TheMotorAloneMakesNoEnergy) {
     EXPECT_EQ(first_failure(1, repetitions(120, 20000), coupled_recipe(topology), gain_without_brake), "");
 }
 
-// The random networks above would leave nothing to the brake, and the test prove nothing.
+// If this failed, the random networks above would leave nothing to the brake, and the test prove nothing.
 TEST(CoupledRegimes, OfRandomNetworksLeaveTheBrakeAPart) {
   std::size_t trees = 0, graphs = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {

@@ -31,7 +31,7 @@ void expect_same_bits(std::uint64_t seed) {
 
 }  // namespace
 
-// What `simulate` shows would not be what runs in the loop.
+// If this failed, what `simulate` shows would not be what runs in the loop.
 TEST(SlipEmission, IsWhatSimulateRuns) {
   std::size_t laws = 0;
   generated::for_each_slip_law([&]<class Law>(std::uint64_t seed) {

@@ -50,9 +50,9 @@ double largest_difference(const compiler::Network& one, const compiler::Network&
 
 }  // namespace
 
-// Modes at several terminals would relax at other rates, or pull at other nodes: with a slip that never yields the
-// bridge is that with both nodes in one, and with one that always does it is that without. Ends of slips move linearly
-// within a sample, inner nodes of a linear part as they have to: the two come together with the period.
+// If this failed, modes at several terminals would relax at other rates, or pull at other nodes: with a slip that never
+// yields the bridge is that with both nodes in one, and with one that always does it is that without. Ends of slips
+// move linearly within a sample, inner nodes of a linear part as they have to: the two come together with the period.
 TEST(SlipOutsideTree, BecomesTheLinearNetworkAtBothLimits) {
   const compiler::Network held = written_network(bridge(R"(, {"slip": 1e6, "nodes": ["left", "right"]})"));
   ASSERT_EQ(compiled(held, compiler::Scheme::exact).law.networks.size(), 1u);
@@ -70,7 +70,7 @@ TEST(SlipOutsideTree, BecomesTheLinearNetworkAtBothLimits) {
   }
 }
 
-// A part whose step could take any time would be compiled.
+// If this failed, a part whose step could take any time would be compiled.
 TEST(SlipOutsideTree, RefusesMoreThanEight) {
   std::string text = bridge("");
   text.pop_back();

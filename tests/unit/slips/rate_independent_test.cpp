@@ -52,7 +52,7 @@ std::vector<double> there_and_back(double amplitude, int samples) {
 
 }  // namespace
 
-// A reversal would not follow the virgin curve at twice the scale.
+// If this failed, a reversal would not follow the virgin curve at twice the scale.
 TEST(RateIndependent, MaxwellSlipObeysMasing) {
   const compiler::Compilation compilation = compiled(maxwell_slip(ten_branches()), compiler::Scheme::exact);
   const auto virgin = [](double u) {
@@ -74,8 +74,8 @@ TEST(RateIndependent, MaxwellSlipObeysMasing) {
   }
 }
 
-// A cycle would lose another energy than Σ 4 Y_i (A − Y_i/K_i)⁺. Trapezia are exact but where a branch yields between
-// two samples: their error falls with the square of the step.
+// If this failed, a cycle would lose another energy than Σ 4 Y_i (A − Y_i/K_i)⁺. Trapezia are exact but where a branch
+// yields between two samples: their error falls with the square of the step.
 TEST(RateIndependent, MaxwellSlipLosesTheKnownEnergyACycle) {
   const double amplitude = 0.004;
   double expected = 0;
@@ -100,7 +100,8 @@ TEST(RateIndependent, MaxwellSlipLosesTheKnownEnergyACycle) {
   EXPECT_LT(errors[1], errors[0] / 4);
 }
 
-// A spring with a slip would depend on how often a piecewise-linear motion is sampled: it is the play operator, exact.
+// If this failed, a spring with a slip would depend on how often a piecewise-linear motion is sampled: it is the play
+// operator, exact.
 TEST(RateIndependent, SpringWithSlipIsThePlayOperator) {
   const compiler::Network network = written_network(R"({"series": [{"spring": 250}, {"slip": 0.75}]})");
   const compiler::Compilation compilation = compiled(network, compiler::Scheme::exact);
@@ -119,7 +120,7 @@ TEST(RateIndependent, SpringWithSlipIsThePlayOperator) {
   }
 }
 
-// States that are forces would drift over many closed cycles.
+// If this failed, states that are forces would drift over many closed cycles.
 TEST(RateIndependent, CoupledSlipsDoNotDrift) {
   for (const std::string& text : coupled_networks()) {
     const compiler::Compilation compilation = compiled(written_network(text), compiler::Scheme::exact);

@@ -192,7 +192,8 @@ double steepest_fall(const NetworkSteps<double>& run, double change) {
 
 }  // namespace
 
-// The step would end where Φ is not least: with all of a network's ends the directions below are those that tell.
+// If this failed, the step would end where Φ is not least: with all of a network's ends the directions below are those
+// that tell.
 TEST(SlipNetwork, EndsWhereNothingGoesDown) {
   Random random(4);
   for (int i = 0; i < 3000; ++i) {
@@ -218,7 +219,8 @@ TEST(SlipNetwork, EndsWhereNothingGoesDown) {
   }
 }
 
-// The banner would promise fewer operations than a step takes, or the search come to its end without having found.
+// If this failed, the banner would promise fewer operations than a step takes, or the search come to its end without
+// having found.
 TEST(SlipNetwork, TakesNoMoreOperationsThanStated) {
   Random random(5);
   int most_patterns = 0;
@@ -240,7 +242,8 @@ TEST(SlipNetwork, TakesNoMoreOperationsThanStated) {
   EXPECT_LT(most_patterns, 40);
 }
 
-// A finite force would come with a state that is not, and never heal; or a NaN or infinite sample would not end.
+// If this failed, a finite force would come with a state that is not, and never heal; or a NaN or infinite sample would
+// not end.
 TEST(SlipNetwork, EndsWithAnyInput) {
   Random random(8);
   const double huge = std::numeric_limits<double>::max(), infinite = std::numeric_limits<double>::infinity();

@@ -71,8 +71,8 @@ class Steps {
 
 }  // namespace
 
-// The banner would promise fewer operations than a step takes, or the work grow faster than with the square of the
-// slips.
+// If this failed, the banner would promise fewer operations than a step takes, or the work grow faster than with the
+// square of the slips.
 TEST(SlipTree, TakesNoMoreOperationsThanStated) {
   Random random(5);
   for (int i = 0; i < 2000; ++i) {
@@ -89,7 +89,8 @@ TEST(SlipTree, TakesNoMoreOperationsThanStated) {
   }
 }
 
-// Slips would give energy, or blocks not add up to what the tool does: work that no block takes is theirs to dissipate.
+// If this failed, slips would give energy, or blocks not add up to what the tool does: work that no block takes is
+// theirs to dissipate.
 TEST(SlipTree, SlipsOnlyDissipate) {
   Random random(6);
   for (int i = 0; i < 2000; ++i) {
@@ -106,7 +107,7 @@ TEST(SlipTree, SlipsOnlyDissipate) {
   }
 }
 
-// A finite force would come with a state that is not, and never heal.
+// If this failed, a finite force would come with a state that is not, and never heal.
 TEST(SlipTree, StaysFiniteWhereTheForceIs) {
   Random random(8);
   const double huge = std::numeric_limits<double>::max(), infinite = std::numeric_limits<double>::infinity();

@@ -61,9 +61,9 @@ TEST(TunableCurve, NeedsWhatTheWorstDamperNeeds) {
   EXPECT_LE(over_box, 1.1 * worst);
 }
 
-// A spring that stays and is made stiffer would need other than the curve of its stiffness does, but for what it holds
-// beyond that while the tool moves on by some samples: the same map w with all of the curve's forces K/K0 times as
-// large.
+// If this failed, a spring that stays and is made stiffer would need other than the curve of its stiffness does, but
+// for what it holds beyond that while the tool moves on by some samples: the same map w with all of the curve's forces
+// K/K0 times as large.
 TEST(TunableCurve, NeedsWhatTheStiffestSpringNeeds) {
   const double over_box =
       on(tuned(parameter("K", 400, 100, 1600), R"({ "spring": "K" })"), device()).certificate.bound.needed;
@@ -72,7 +72,8 @@ TEST(TunableCurve, NeedsWhatTheStiffestSpringNeeds) {
   EXPECT_LE(over_box, 1.1 * stiffest);
 }
 
-// Rounds of stretching stiff, softening, letting back and stiffening would make a spring hold more and more.
+// If this failed, rounds of stretching stiff, softening, letting back and stiffening would make a spring hold more and
+// more.
 TEST(TunableCurve, NoSpringHoldsMoreThanItsStiffest) {
   const Compilation c = on(tuned(parameter("K", 400, 100, 1600), R"({ "spring": "K" })"), device());
   const MotionMap& map = *c.network.map;
@@ -92,8 +93,8 @@ TEST(TunableCurve, NoSpringHoldsMoreThanItsStiffest) {
   }
 }
 
-// Where a softer spring is not paid for its elongation would not stay, or a stiffer one's force would not: then what
-// the command that is held gives out would not be there.
+// If this failed, a softer spring that is not paid for would not keep its elongation, or a stiffer one its force: then
+// the energy that the held command gives out would not be there.
 TEST(TunableCurve, KeepsForceOfAStifferAndElongationOfASofterSpring) {
   const Compilation c = on(tuned(parameter("K", 400, 100, 1600), R"({ "spring": "K" })"), device());
   Evaluation<double> law(c.law);
@@ -110,7 +111,8 @@ TEST(TunableCurve, KeepsForceOfAStifferAndElongationOfASofterSpring) {
   EXPECT_NEAR(law.step(4e-3, 0).force, before / 2, 0.1 * before) << "a stiffer spring's force";
 }
 
-// A second change before the next sample would jump from what the first has left, with one command held for both.
+// If this failed, a second change before the next sample would jump from what the first has left, with one command held
+// for both.
 TEST(TunableCurve, ChangesBetweenTwoSamplesAreOne) {
   const std::string text =
       tuned(parameter("K", 400, 100, 1600) + ", " + parameter("k1", 300, 0, 900),
@@ -129,7 +131,7 @@ TEST(TunableCurve, ChangesBetweenTwoSamplesAreOne) {
   }
 }
 
-// Where nothing is proved it would not be told why.
+// If this failed, the reason would not be told where nothing is proved.
 TEST(TunableCurve, SaysWhatIsNotProved) {
   const std::string kelvin =
       R"({ "series": [ { "spring": "K" }, { "parallel": [ { "spring": 200 }, { "damper": 5 } ] } ] })";

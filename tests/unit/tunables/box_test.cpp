@@ -65,7 +65,7 @@ double given_out(const UpdateLaw& update_law, const std::vector<double>& values,
   return largest > 0 ? -least / largest : 0;
 }
 
-// Somewhere in its box a certified law would give out energy.
+// If this failed, somewhere in its box a certified law would give out energy.
 TEST(Box, CertifiedLawsGiveOutNoEnergy) {
   int certified = 0, with_meshes = 0, with_slips = 0, outside_trees = 0, raised = 0;
   for (std::uint64_t seed = 1; certified < int(repetitions(30, 2000)); ++seed) {
@@ -101,7 +101,7 @@ TEST(Box, CertifiedLawsGiveOutNoEnergy) {
   EXPECT_GT(raised, certified / 2);
 }
 
-// A brake of which nothing is assured would be added to without end.
+// If this failed, a brake of which nothing is assured would be added to without end.
 TEST(Box, IsNotCertifiedOnABrakeThatPromisesNothing) {
   int bounded = 0;
   for (const Kind kind : kinds) {
@@ -121,7 +121,7 @@ TEST(Box, IsNotCertifiedOnABrakeThatPromisesNothing) {
   EXPECT_GT(bounded, 0);
 }
 
-// What is added would fall short of itself, by a rounding, where the brake is told nothing else.
+// If this failed, what is added would fall short of itself, by a rounding, where the brake is told nothing else.
 TEST(Box, IsCertifiedByWhatIsAddedAlone) {
   for (const double most : {100.0, 333.3, 1000.0}) {
     const std::string text = R"({"dashpot": 1, "name": "lone", "parameters": {"K": {"value": )" +
@@ -135,8 +135,8 @@ TEST(Box, IsCertifiedByWhatIsAddedAlone) {
   }
 }
 
-// A relaxation would be held for softer or stiffer than it is between samples: ½ k where it is slow or fast, most near
-// λh = 2.45, and never above the bound that stands for all of them.
+// If this failed, a relaxation would be held for softer or stiffer than it is between samples: ½ k where it is slow or
+// fast, most near λh = 2.45, and never above the bound that stands for all of them.
 TEST(Box, RelaxationsAreHeldByNoMoreThanTheirBound) {
   double largest = 0;
   for (double x = 1e-6; x < 500; x *= 1.001)
@@ -146,7 +146,8 @@ TEST(Box, RelaxationsAreHeldByNoMoreThanTheirBound) {
   EXPECT_NEAR(relaxation_hold(-std::expm1(-1e-6) / 1e-6, -std::expm1(-1e-6)), 0.5, 1e-6);
 }
 
-// Of a relaxation's emitted constants, one in the last place that makes it give more work than it stores would pass.
+// If this failed, an error in the last place of a relaxation's emitted constants that makes it give more work than it
+// stores would pass.
 TEST(Box, EnergyOfEmittedConstantsIsLookedAtExactly) {
   const TunableLaw compiled(
       R"({ "dashpot": 1, "name": "fixed", "parameters": { "k": { "value": 3, "min": 0, "max": 9, "tunable": true } },

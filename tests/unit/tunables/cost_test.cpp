@@ -7,7 +7,8 @@
 namespace dashpot::testing {
 namespace {
 
-// What a change costs would be most of a period on a board: a standard solid's constants, and a Kelvin's.
+// If this failed, what a change costs would be most of a period on a board: a standard solid's constants, and a
+// Kelvin's.
 TEST(TunableCost, OfConstantsIsSmall) {
   const auto cost = [](const char* network) {
     const TunableLaw compiled(network);

@@ -98,7 +98,7 @@ const char* const strict =
     "-std=c++17 -ffreestanding -fno-exceptions -fno-rtti -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion "
     "-Wdouble-promotion -Wfloat-conversion -Wshadow -Wvla -Walloca -Werror";
 
-// What `simulate` shows would not be what runs in the loop.
+// If this failed, what `simulate` shows would not be what runs in the loop.
 TEST(TunableEmission, HasTheBitsOfEvaluate) {
   const TemporaryFolder folder;
   const std::uint64_t count = repetitions(20, 400);
@@ -127,7 +127,7 @@ TEST(TunableEmission, HasTheBitsOfEvaluate) {
   }
 }
 
-// A board would lack what the code asks for, or a global object would be made before main().
+// If this failed, a board would lack what the code asks for, or a global object would be made before main().
 TEST(TunableEmission, CompilesStrictlyAndLeavesNoSymbolUndefined) {
   const TemporaryFolder folder;
   std::string source;
@@ -158,8 +158,8 @@ TEST(TunableEmission, CompilesStrictlyAndLeavesNoSymbolUndefined) {
     }
 }
 
-// A global law would be made while the program starts, after others that use it: no division by zero is a constant. All
-// kinds, and a branch whose damper is nothing to begin with.
+// If this failed, a global law would be made while the program starts, after others that use it: no division by zero is
+// a constant. All kinds, and a branch whose damper is nothing to begin with.
 TEST(TunableEmission, IsMadeByConstantsAlone) {
   const TemporaryFolder folder;
   const char* const nothing = R"({ "dashpot": 1, "name": "tunable_0",
@@ -178,7 +178,7 @@ TEST(TunableEmission, IsMadeByConstantsAlone) {
                             DASHPOT_RUNTIME_INCLUDE, folder.path().string(), folder.path().string()));
 }
 
-// A step would take as long as a processor's division, which on a board is a call.
+// If this failed, a step would take as long as a processor's division, which on a board is a call.
 TEST(TunableEmission, DividesOnlyInSetAndReset) {
   const TemporaryFolder folder;
   std::string source;

@@ -35,11 +35,12 @@ void expect_within_three_units() {
   }
 }
 
-// A relaxation set at run time would differ from the law by more than rounding.
+// If this failed, a relaxation set at run time would differ from the law by more than rounding.
 TEST(Exponential, IsWithinThreeUnitsOfRoundoffInDouble) { expect_within_three_units<double>(); }
 TEST(Exponential, IsWithinThreeUnitsOfRoundoffInFloat) { expect_within_three_units<float>(); }
 
-// A limit would end in NaN, which no later set() would take out of the states, or a NaN would go unnoticed.
+// If this failed, a limit would end in NaN, which no later set() would take out of the states, or a NaN would go
+// unnoticed.
 TEST(Exponential, IsTotal) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(mean_decay(0.0), 1);
@@ -59,7 +60,7 @@ TEST(Exponential, IsAConstantExpression) {
   EXPECT_EQ(by_the_compiler, mean_decay(double(argument)));
 }
 
-// A board would render another network than the one that was simulated.
+// If this failed, a board would render another network than the one that was simulated.
 TEST(Exponential, HasTheSameBitsOnACortexM) {
   ASSERT_NE(std::string(DASHPOT_BOARD_PROGRAM), "") << "arm-none-eabi-g++ is not installed (package gcc-arm-none-eabi)";
   ASSERT_NE(std::string(DASHPOT_QEMU), "") << "qemu-system-arm is not installed (package qemu-system-arm)";

@@ -32,7 +32,7 @@ std::string repeated(int count, const char* what) {
 
 void expect(const std::string& said, const std::string& part) { EXPECT_NE(said.find(part), said.npos) << said; }
 
-// A network too large for set() would be compiled into one that takes longer than anybody was told.
+// If this failed, a network too large for set() would be compiled into one that takes longer than anybody was told.
 TEST(TunableRefusal, OfMoreThanThereIsRoomFor) {
   EXPECT_EQ(said_of(repeated(40, "damper")), "compiled\n");
   EXPECT_EQ(said_of(repeated(8, "slip")), "compiled\n");
@@ -42,7 +42,7 @@ TEST(TunableRefusal, OfMoreThanThereIsRoomFor) {
   expect(many, "note: make the parameters constants");
 }
 
-// A state that follows an estimate would turn a slider into a source of energy.
+// If this failed, a state that follows an estimate would turn a slider into a source of energy.
 TEST(TunableRefusal, OfStatesThatFollowAVelocity) {
   compiler::Choices choices;
   choices.state_input = compiler::StateInput::velocity;
@@ -53,8 +53,8 @@ TEST(TunableRefusal, OfStatesThatFollowAVelocity) {
          "[tunable-needs-position]");
 }
 
-// Slips outside a tree would take longer than anybody was told: their patterns grow as 3ⁿ. One slip holds nothing to
-// begin with.
+// If this failed, slips outside a tree would take longer than anybody was told: their patterns grow as 3ⁿ. One slip
+// holds nothing to begin with.
 TEST(TunableRefusal, OfManySlipsOutsideATree) {
   const auto ring = [](int slips) {
     std::string elements = R"({ "spring": "K", "nodes": ["tool", "n0"] }, { "slip": "Y", "nodes": ["n0", "n1"] })";
@@ -70,7 +70,7 @@ TEST(TunableRefusal, OfManySlipsOutsideATree) {
   expect(said_of(ring(9)), "'n' has tunable parameters and 9 slips; at most 8 are compiled with them");
 }
 
-// The brake would stay where the defaults put it while the network changes under it.
+// If this failed, the brake would stay where the defaults put it while the network changes under it.
 TEST(TunableBrake, FollowsTheParameters) {
   const char* const network = R"({ "dashpot": 1, "name": "n",
     "parameters": { "B1": { "value": 5, "tunable": true, "min": 0, "max": 50 }, "K": { "value": 3, "tunable": true, "min": 0, "max": 50 } },
@@ -95,8 +95,8 @@ TEST(TunableBrake, FollowsTheParameters) {
   EXPECT_DOUBLE_EQ(damping("quietest-passive", {0, 9}), 2);
 }
 
-// The brake would take nothing of what is behind slips, or keep their damping when they give way. A table of patterns
-// in the law without tunables, a walk over the tree in this one.
+// If this failed, the brake would take nothing of what is behind slips, or keep their damping when they give way. A
+// table of patterns in the law without tunables, a walk over the tree in this one.
 TEST(TunableBrake, FollowsTheSlipsThatSlide) {
   const char* const network = R"({ "dashpot": 1, "name": "n",
     "parameters": { "Y": { "value": 0.4, "tunable": true, "min": 0.1, "max": 5 }, "B": { "value": 2, "tunable": true, "min": 0, "max": 8 } },
@@ -117,8 +117,8 @@ TEST(TunableBrake, FollowsTheSlipsThatSlide) {
   EXPECT_EQ(run.step(std::nan(""), 0).damping, 6 * 3 / 9.0);
 }
 
-// Outside a tree the brake would take a slip's ends for joined when it slides, or for apart when it holds: a bridge of
-// dampers whose middle is a slip.
+// If this failed, outside a tree the brake would take a slip's ends for joined when it slides, or for apart when it
+// holds: a bridge of dampers whose middle is a slip.
 TEST(TunableBrake, FollowsSlipsOutsideATree) {
   const char* const bridge = R"({ "dashpot": 1, "name": "n",
     "parameters": { "Y": { "value": 0.2, "tunable": true, "min": 0, "max": 5 }, "B": { "value": 1, "tunable": true, "min": 0, "max": 8 } },
@@ -139,7 +139,7 @@ TEST(TunableBrake, FollowsSlipsOutsideATree) {
   EXPECT_DOUBLE_EQ(pressed(0.5), open(8));
 }
 
-// A coil that lags would be told to jump, or a count of the encoder there and back to let go.
+// If this failed, a coil that lags would be told to jump, or a count of the encoder there and back to let go.
 TEST(TunableBrake, GoesNoFasterThanItsCoil) {
   const char* const network = R"({ "dashpot": 1, "name": "n",
     "parameters": { "Y": { "value": 0.4, "tunable": true, "min": 0.1, "max": 5 } },

@@ -52,7 +52,7 @@ void expect_same_forces(Kind kind, compiler::Scheme scheme) {
   }
 }
 
-// A network would change its forces by having a slider.
+// If this failed, a network would change its forces by having a slider.
 TEST(SameNetwork, OfBranchesInTheExactScheme) { expect_same_forces(Kind::parallel_branches, compiler::Scheme::exact); }
 TEST(SameNetwork, OfBranchesInBackwardEuler) {
   expect_same_forces(Kind::parallel_branches, compiler::Scheme::backward_euler);
@@ -74,9 +74,9 @@ TEST(SameNetwork, OfSlipsOutsideTreesBehindAContactInBackwardEuler) {
   expect_same_forces(Kind::touched_slips_in_graph, compiler::Scheme::backward_euler);
 }
 
-// What relaxes between two ends of slips would be stepped by backward Euler, though nothing else relaxes with it: a
-// ring of three slips, a tunable Maxwell element and a tunable Kelvin element in series with a spring between their
-// ends.
+// If this failed, what relaxes between two ends of slips would be stepped by backward Euler, though nothing else
+// relaxes with it: a ring of three slips, a tunable Maxwell element and a tunable Kelvin element in series with a
+// spring between their ends.
 TEST(SameNetwork, OfOnePortsBetweenSlipsInTheExactScheme) {
   const char* const ring = R"({ "dashpot": 1, "name": "ring",
     "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 1000 }, "Y": { "value": 0.2, "tunable": true, "min": 0, "max": 1 } },
@@ -90,7 +90,7 @@ TEST(SameNetwork, OfOnePortsBetweenSlipsInTheExactScheme) {
     EXPECT_LE(difference(ring, seed, compiler::Scheme::exact), force_rounding) << seed;
 }
 
-// An inner node that three ends of slips share would be lost, or its springs take another way.
+// If this failed, an inner node that three ends of slips share would be lost, or its springs take another way.
 TEST(SameNetwork, OfStarsBetweenSlipsInBackwardEuler) {
   const char* const star = R"({ "dashpot": 1, "name": "star",
     "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 1000 } },

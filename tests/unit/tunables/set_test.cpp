@@ -109,7 +109,7 @@ void expect_no_gain(Kind kind) {
   }
 }
 
-// A slider in a user's hand would drive the tool.
+// If this failed, a slider in a user's hand would drive the tool.
 TEST(Set, InjectsNoEnergyIntoBranches) { expect_no_gain(Kind::parallel_branches); }
 TEST(Set, InjectsNoEnergyIntoTrees) { expect_no_gain(Kind::tree); }
 TEST(Set, InjectsNoEnergyIntoGraphs) { expect_no_gain(Kind::graph); }
@@ -176,7 +176,7 @@ TEST(Set, KeepsTheTimeWhereASampleIsPutOutTwice) {
   }
 }
 
-// A slider that is not moved would be felt.
+// If this failed, a slider that is not moved would be felt.
 TEST(Set, ChangesNoBitWhereNothingChanges) {
   for (const Kind kind : all_kinds)
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -196,8 +196,8 @@ TEST(Set, ChangesNoBitWhereNothingChanges) {
     }
 }
 
-// A NaN, or beyond what the author declared, would reach the coefficients, or the caller not hear
-// of it.
+// If this failed, a NaN, or a value beyond the declared range, would reach the coefficients, or the caller not hear of
+// it.
 TEST(Set, ClampsAndSaysWhich) {
   const TunableLaw compiled(pressed_network);
   const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -216,7 +216,8 @@ TEST(Set, ClampsAndSaysWhich) {
   expect_same_as({nan, nan, nan}, 7, {0, 100, 5});
 }
 
-// A change would be felt as a knock. What is left is what relaxes within a sample, which goes with the period.
+// If this failed, a change would be felt as a knock. What is left is what relaxes within a sample, which goes with the
+// period.
 TEST(Set, LeavesTheForceWhereItWas) {
   double last_median = 0;
   for (const double rate : {1e3, 1e4, 1e5}) {
@@ -234,8 +235,8 @@ TEST(Set, LeavesTheForceWhereItWas) {
   EXPECT_LE(last_median, 1e-4);
 }
 
-// A slider that trembles would let go of the tissue: displacements that shrink with every change lose all force in a
-// second.
+// If this failed, a slider that trembles would let go of the tissue: displacements that shrink with every change lose
+// all force in a second.
 TEST(Set, KeepsTheForceWhileAValueTrembles) {
   const TunableLaw compiled(pressed_network);
   Law law(compiled.law()), still(compiled.law());
@@ -252,7 +253,7 @@ TEST(Set, KeepsTheForceWhileAValueTrembles) {
   }
 }
 
-// Coefficients would depend on the way that led to them.
+// If this failed, coefficients would depend on the way that led to them.
 TEST(Set, HasTheCoefficientsOfTheLawCompiledAtItsValues) {
   for (const Kind kind : all_kinds)
     for (std::uint64_t seed = 1; seed <= 30; ++seed) {
@@ -271,7 +272,7 @@ TEST(Set, HasTheCoefficientsOfTheLawCompiledAtItsValues) {
     }
 }
 
-// What a rise of stiffness owes would be owed for ever.
+// If this failed, what a rise of stiffness owes would be owed for ever.
 TEST(Set, ComesHomeWhenTheToolHasLeft) {
   const TunableLaw compiled(pressed_network);
   Law changed(compiled.law()), born(compiled.law());

@@ -8,8 +8,8 @@
 namespace dashpot::simulated {
 namespace {
 
-// Changes between sliding and sticking in one step beyond which it goes on as it is: a joint that trembles at its
-// limit.
+// After so many changes between sliding and sticking in one step it goes on without further ones: a joint may tremble
+// at its limit.
 constexpr unsigned most_changes = 64;
 
 struct inertia {
@@ -296,7 +296,8 @@ bool arm_plant::violates(const step& candidate, double duration, bool (&joints)[
   return joints[0] || joints[1];
 }
 
-// Of joints at rest: those that stick are held by friction, the others start in the direction in which they slide.
+// Whether, of the joints at rest, those that stick are held by friction and the others start in the direction in which
+// they slide.
 bool arm_plant::is_consistent(const bool (&rests)[arm_axes]) const noexcept {
   const forces now = balance(0, now_, drive_after(0));
   for (unsigned j = 0; j < arm_axes; ++j) {
@@ -306,7 +307,7 @@ bool arm_plant::is_consistent(const bool (&rests)[arm_axes]) const noexcept {
   return true;
 }
 
-// Which joints at rest stick is the one consistent choice: the inertia is positive definite.
+// Finds which joints at rest stick. One choice alone is consistent, since the inertia is positive definite.
 void arm_plant::settle() noexcept {
   if (prescribed_) return;
   bool rests[arm_axes];

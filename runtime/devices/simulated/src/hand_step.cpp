@@ -18,8 +18,9 @@ double force_of(const hand& user, const hand_state& state, const motion_point& i
   return force;
 }
 
-// Answers a drive r of the hand's states, at a stage, with their slopes k at both: (I − h 𝒜⊗A) k = r. The number of
-// states is known at compile time: where samples come with jitter, no two steps are equally long, and each is solved.
+// Solves (I − h 𝒜⊗A) k = r for the slopes k of the hand's states at both stages, r being a drive at one stage. The
+// number of states is known at compile time: where samples come with jitter, no two steps are equally long, and each is
+// solved.
 template <unsigned n_>
 class hand_step::solver {
  public:
@@ -42,7 +43,7 @@ class hand_step::solver {
     }
   }
 
-  // Of the slopes: what they add to state i by the end of the step, and to the force at a stage.
+  // What the slopes add to state i by the end of the step, and to the force at a stage.
   double end(unsigned i) const { return duration_ / 2 * (slope_[i] + slope_[n_ + i]); }
   double force(unsigned stage) const {
     double sum = 0;

@@ -98,8 +98,8 @@ plant::stage_equations plant::equations(const stages& s, const hand_step& grip, 
   return e;
 }
 
-// Solves for the stage velocities. The brake's damping comes at no speed and leaves at theirs: it fades by a share that
-// changes little within a step, so that each round gains several digits.
+// Solves for the stage velocities. `s.damping` is the brake's at no speed before and at these velocities after. It
+// fades by a share that changes little within a step, so that each round gains several digits.
 void plant::balance(stages& s, const stage_equations& e) const noexcept {
   constexpr int most_rounds = 8;
   const double at_no_speed[2] = {s.damping[0], s.damping[1]};

@@ -156,7 +156,7 @@ class arm_path {
         : actuator(brake_of(arm, number), arm.motion(), {false, options.lead_coils}),
           energy(arm.loop().delay_samples, quantum(arm, number)) {}
 
-    // Of a·q, when every encoder may be off by a step.
+    // The largest error of a·q if every encoder may be off by a step.
     static double quantum(const arm_description& arm, unsigned number) noexcept {
       double sum = 0;
       for (unsigned j = 0; j < arm_axes; ++j) sum += std::abs(arm.brakes[number].along[j]) * arm.joints[j].encoder.step;

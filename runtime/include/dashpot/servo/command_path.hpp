@@ -124,7 +124,7 @@ class command_path {
   }
 
  private:
-  // By our limits or by the device's own.
+  // Whether our limits or the device's own took something away.
   bool is_motor_clipped() const noexcept { return output_.motor_saturated() || motor_falls_short_; }
   bool is_brake_clipped() const noexcept {
     return is_less(output_.brake_damping, output_.brake_damping + output_.damping_clipped) || brake_falls_short_;

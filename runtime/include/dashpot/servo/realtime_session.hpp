@@ -1,5 +1,5 @@
 // While it lives, the calling thread runs as real time as the system allows: SCHED_FIFO, memory locked and touched, the
-// processors kept out of their deep sleep states. What is not granted is told, and the loop runs without it. The
+// processors kept out of their deep sleep states. What is not granted is reported, and the loop runs without it. The
 // thread's former scheduling comes back with its end.
 #pragma once
 

@@ -28,7 +28,7 @@ class safety_monitor {
   }
 
   // The loop woke up for this period after skipping `missed` whole ones, in which the machine itself slept for `asleep`
-  // [s]: after that nothing is as it was, however short.
+  // [s]: any sleep is a fault, however short.
   constexpr fault_report check_wake_up(unsigned missed, double asleep = 0) noexcept {
     if (asleep > 0) return {fault::suspended, asleep, 0};
     missed_in_row_ = missed != 0 ? capped(missed_in_row_, missed) : 0;
@@ -72,7 +72,7 @@ class safety_monitor {
     periods_saturated_ = saturated ? periods_saturated_ + periods_since_last_ : 0;
     const double allowed_time = device_.motor.saturation_allowed;
     const double time = static_cast<double>(periods_saturated_) * device_.loop.sample_period;
-    // Half a period: both times are whole periods, and their ratio must not hang on the last bit.
+    // Half a period: both times are whole periods, and the comparison must not depend on the last bit.
     const double margin = device_.loop.sample_period / 2;
     if (allowed_time > 0 && time > allowed_time + margin) return {fault::motor_saturated, time, allowed_time};
     return {};
@@ -99,7 +99,7 @@ class safety_monitor {
     return stated < most_missed_deadlines ? stated : most_missed_deadlines;
   }
 
-  // Beyond what any device allows a count only has to stay there.
+  // A count that is beyond what any device allows only has to stay there, without overflow.
   static constexpr unsigned capped(unsigned count, unsigned more) noexcept {
     constexpr unsigned enough = 4 * most_missed_deadlines;
     return more < enough - count ? count + more : enough;

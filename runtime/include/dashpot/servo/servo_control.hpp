@@ -12,8 +12,8 @@ class servo_control {
   void reset() noexcept { reset_.store(true, std::memory_order_release); }  // safe → idle
   void stop() noexcept { stop_.store(true, std::memory_order_release); }    // leave the loop, device safe
 
-  // For who cannot wait for a log that nobody reads: `end`, which must not return, is called as soon as no device needs
-  // the loop any more; at once, in this thread, where that is so already.
+  // For a program that cannot wait for a log that nobody reads: `end`, which must not return, is called as soon as no
+  // device needs the loop any more; if that is so already, at once in this thread.
   void end_when_safe(void (*end)()) noexcept {
     end_.store(end);
     if (!drives_.load()) end();

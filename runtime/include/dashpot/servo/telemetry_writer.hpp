@@ -3,7 +3,8 @@
 // time).
 //
 // The CSV's first line names the columns with their units; numbers round-trip. A failed write stops the file, not the
-// loop, and is told by write_error(); it raises no signal, on a full disk, at a file's limit or towards a closed pipe.
+// loop, and is reported by write_error(); it raises no signal, on a full disk, at a file's limit or towards a closed
+// pipe.
 #pragma once
 
 #include <atomic>

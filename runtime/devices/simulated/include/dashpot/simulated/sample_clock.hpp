@@ -19,7 +19,7 @@ class sample_clock {
 
   // Goes on to the next sample. Loop, seed and faults are those of all samples.
   step advance(const loop_description& loop, std::uint64_t seed, const std::vector<sample_fault>& faults) noexcept;
-  // Of a step behind the newest sample, how long the command before still acts [s].
+  // For how long, in the step after the newest sample, the command before still acts [s].
   double until_write(const loop_description& loop, std::uint64_t seed, double duration) const noexcept;
 
   std::uint64_t index() const noexcept { return index_; }  // of the newest sample

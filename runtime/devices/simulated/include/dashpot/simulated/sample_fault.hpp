@@ -34,7 +34,7 @@ bool has_early_sample(const std::vector<sample_fault>& faults) noexcept;
 // The first that strikes the sample of this index; null where none does.
 const sample_fault* fault_at(const std::vector<sample_fault>& faults, std::uint64_t index) noexcept;
 
-// What is wrong with a position under `not_a_number` and `jump`.
+// Makes a position wrong as `not_a_number` and `jump` say.
 void spoil(const sample_fault& fault, const shaft_sensors& sensors, double& position, std::int64_t& counts) noexcept;
 
 // What a reader gets of the newest sample under a fault, or without one. `delivered`: the newest that it got;

@@ -27,8 +27,8 @@ struct scenario {
   bool prescribed = false;       // the tool itself follows `intended`, whatever force that takes; `user` is not used
   double initial_position = 0;   // [m] or [rad]; a prescribed motion has its own
   double initial_velocity = 0;   // [m/s] or [rad/s]
-  std::optional<end_stop> low;   // below which the tool does not go freely
-  std::optional<end_stop> high;  // above which
+  std::optional<end_stop> low;   // below it the tool does not move freely
+  std::optional<end_stop> high;  // above it
   brake_gain gain = brake_gain::nominal;
   std::uint64_t seed = 0;  // of jitter, drawn gain, sensor and amplifier noise
   unsigned substeps = 0;   // integration steps a period; 0: chosen so that every rate of the plant is resolved

@@ -218,6 +218,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   Compilation result;
   result.network = std::move(network);
   result.device = device;
+  result.registers = choices.registers;
   result.rate = choices.rate.value_or(device ? 1 / device->description.loop.sample_period : default_rate);
   result.form = std::move(*form);
   warn_about_validity(result.form.linear, result.network, diagnostics);

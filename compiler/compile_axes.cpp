@@ -247,6 +247,7 @@ std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choi
   if (!network || !rule || diagnostics.error_count() > errors_before) return std::nullopt;
   AxesCompilation c;
   c.network = std::move(*network);
+  c.registers = asked.registers;
   c.rate = asked.rate.value_or(device ? 1 / device->loop().sample_period : default_rate);
   c.has_device = device.has_value();
   c.device = device ? *device : ideal_axes_device(1 / c.rate);

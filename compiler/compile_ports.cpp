@@ -288,6 +288,7 @@ std::optional<Compilation> compile_ports(Network network, const Choices& asked, 
   if (!whole) return std::nullopt;
   c.port = std::move(*whole);
   c.device = device;
+  c.registers = asked.registers;
   c.rate = asked.rate.value_or(device ? 1 / device->description.loop.sample_period : default_rate);
   // One rule for all, with slips in some of them or not.
   const Choices choices =

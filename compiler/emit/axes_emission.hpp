@@ -23,6 +23,7 @@ struct AxesCompilation {
   AxesCertificate certificate;
   axes::Pair<std::pair<double, double>> joint_ranges = {};  // that the law counts on [rad]; low == high: none
   double rate = 0;                                          // [Hz]
+  VectorRegisters registers = VectorRegisters::none;        // that loops are laid out for
 };
 
 namespace axes {

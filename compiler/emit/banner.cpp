@@ -9,6 +9,7 @@
 #include "certify/choice_text.hpp"
 #include "decompose/slip_laws.hpp"
 #include "law/cost.hpp"
+#include "law/walk.hpp"
 #include "source/wrapped_text.hpp"
 
 namespace dashpot::compiler {
@@ -123,12 +124,12 @@ std::string form_text(ModeForm form) {
   return form == ModeForm::product ? "" : fmt::format("in {} form ", name_of(form));
 }
 
-std::string loops_line(const UpdateLaw& law) {
-  const std::string room =
-      law.register_bytes > 0 ? fmt::format("registers of {} bytes", law.register_bytes) : "a machine without vectors";
-  const char* flag = law.register_bytes == 64 ? ", -mavx512f" : law.register_bytes == 32 ? ", -mavx2" : "";
+std::string loops_line(const UpdateLaw& law, VectorRegisters registers) {
+  const std::size_t bytes = bytes_of(registers);
+  const std::string room = bytes > 0 ? fmt::format("registers of {} bytes", bytes) : "a machine without vectors";
+  const char* flag = bytes == 64 ? ", -mavx512f" : bytes == 32 ? ", -mavx2" : "";
   return fmt::format("loops: laid out for {}{}; sums in {} parts, the same bits on every machine", room, flag,
-                     law.lanes);
+                     lanes_of_loops(law).count);
 }
 
 void describe_curve(const Compilation& c, std::vector<std::string>& facts) {
@@ -234,7 +235,7 @@ std::vector<std::string> banner(const Compilation& c, const UpdateLaw& law, Timi
   if (law.tunable) describe_tunables(law, unit, facts);
   else describe_cost(law, facts);
   if (timing == Timing::constant) facts.push_back("constant time: output() and update() decide by masks, not by jumps");
-  if (c.law.lanes > 1) facts.push_back(loops_line(c.law));
+  if (has_loops(c.law)) facts.push_back(loops_line(c.law, c.registers));
   if (c.law.relative_error_bound > 0)
     facts.push_back(fmt::format("rounding: {}the force of a mode is off by at most {:.2g} of its peak",
                                 form_text(c.law.mode_form), c.law.relative_error_bound));

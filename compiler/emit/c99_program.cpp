@@ -157,7 +157,7 @@ class C99Printer {
                         guard.places, forces.size),
             fmt::format("  {0} = dashpot_flush_below{1}(threshold, {0});", force, suffix_), "}",
             fmt::format("self->{0} = ((self->{0} + {1}) < {2}) ? (self->{0} + {1}) : 0;", guard.name, guard.places,
-                        law_.padded(forces.size))};
+                        forces.lanes.padded(forces.size))};
   }
 
   // The constants that the programs read, before the lines.
@@ -180,7 +180,7 @@ class C99Printer {
 
   void append_constant(const Coefficient& c, Lines& lines) const {
     const std::string remark = fmt::format("{} [{}]", c.meaning, c.unit);
-    if (c.is_table() || law_.is_rolled(c.values.size())) {
+    if (c.is_table() || c.is_rolled()) {
       std::string table = fmt::format("static const {} {}[{}] = {{", scalar(), c.name, c.values.size());
       for (std::size_t place = 0; place < c.values.size(); ++place)
         table += (place == 0 ? "" : ", ") + number(c.values[place]);
@@ -196,7 +196,7 @@ class C99Printer {
     Lines lines;
     for (std::size_t i = 0; i < program.size();) {
       const std::size_t size = law_.variables[program[i].target].size;
-      if (!law_.is_rolled(size)) {
+      if (!law_.variables[program[i].target].is_rolled()) {
         print_straight(program[i++], lines);
         continue;
       }
@@ -350,7 +350,7 @@ class C99Printer {
       if (vector.role == Role::local && in_loop_.count(program[i].target) == 0)
         lines.push_back(fmt::format("{} {}[{}];", scalar(), vector.name, size));
       if (is_summed(program[i].target))
-        lines.push_back(fmt::format("{} {}_lane[{}] = {{{}}};", scalar(), vector.name, law_.lanes, number(0)));
+        lines.push_back(fmt::format("{} {}_lane[{}] = {{{}}};", scalar(), vector.name, vector.lanes.count, number(0)));
     }
     lines.push_back(fmt::format("for (int j = 0; j < {}; ++j) {{", size));
     for (std::size_t i = first; i < last; ++i) {
@@ -359,10 +359,12 @@ class C99Printer {
       append(lines, "  " + declared + name(program[i].target, 0) + " = " + expression(program[i].value) + ";",
              program[i].purpose);
     }
-    for (std::size_t i = first; i < last; ++i)
+    for (std::size_t i = first; i < last; ++i) {
+      const Variable& vector = law_.variables[program[i].target];
       if (is_summed(program[i].target))
-        lines.push_back(fmt::format("  {}_lane[j % {}] += {};", law_.variables[program[i].target].name, law_.lanes,
-                                    name(program[i].target, 0)));
+        lines.push_back(
+            fmt::format("  {}_lane[j % {}] += {};", vector.name, vector.lanes.count, name(program[i].target, 0)));
+    }
     lines.push_back("}");
     for (std::size_t i = first; i < last; ++i)
       if (is_summed(program[i].target)) append_all(lines, joined_lanes(law_.variables[program[i].target]));
@@ -370,7 +372,7 @@ class C99Printer {
 
   // The second half of the partial sums is added to the first until one is left.
   Lines joined_lanes(const Variable& vector) const {
-    return {fmt::format("for (int half = {}; half > 0; half /= 2) {{", law_.lanes / 2),
+    return {fmt::format("for (int half = {}; half > 0; half /= 2) {{", vector.lanes.count / 2),
             fmt::format("  for (int j = 0; j < half; ++j) {{ {0}_lane[j] += {0}_lane[j + half]; }}", vector.name), "}"};
   }
 
@@ -419,7 +421,7 @@ class C99Printer {
 
   std::string sum(VariableId id, bool is_whole) const {
     const Variable& vector = law_.variables[id];
-    if (law_.is_rolled(vector.size)) return vector.name + "_lane[0]";
+    if (vector.is_rolled()) return vector.name + "_lane[0]";
     std::string text;
     for (std::size_t place = 0; place < vector.size; ++place) text += (place == 0 ? "" : " + ") + name(id, place);
     return vector.size == 1 || is_whole ? text : "(" + text + ")";
@@ -428,14 +430,14 @@ class C99Printer {
   std::string name(VariableId id, std::size_t place) const {
     const Variable& variable = law_.variables[id];
     const std::string owner = variable.is_kept() ? "self->" : "";
-    if (law_.is_rolled(variable.size)) return owner + variable.name + (in_loop_.count(id) != 0 ? "" : "[j]");
+    if (variable.is_rolled()) return owner + variable.name + (in_loop_.count(id) != 0 ? "" : "[j]");
     if (variable.element_names.empty()) return owner + variable.name;
     return owner + variable.element_names[variable.size == 1 ? 0 : place];
   }
 
   std::string name(const Coefficient& c, std::size_t place) const {
     if (c.element_names.empty()) return c.name;
-    return law_.is_rolled(c.values.size()) ? c.name + "[j]" : c.element_names[c.values.size() == 1 ? 0 : place];
+    return c.is_rolled() ? c.name + "[j]" : c.element_names[c.values.size() == 1 ? 0 : place];
   }
 
   std::string declaration(const Variable& target) const {
@@ -447,7 +449,7 @@ class C99Printer {
     for (const Variable& variable : law_.variables) {
       if (!variable.is_kept()) continue;
       const std::string remark = fmt::format("{} [{}]", variable.meaning, variable.unit);
-      if (law_.is_rolled(variable.size)) {
+      if (variable.is_rolled()) {
         lines.push_back(fmt::format("{} {}[{}];  // {}", scalar(), variable.name, variable.size, remark));
         continue;
       }
@@ -513,8 +515,7 @@ class C99Printer {
     std::map<std::string, std::string> members;
     for_each_state([&](const Variable& variable, std::size_t place) {
       members[state_name(variable, place)] =
-          "self->" +
-          (law_.is_rolled(variable.size) ? fmt::format("{}[{}]", variable.name, place) : member(variable, place));
+          "self->" + (variable.is_rolled() ? fmt::format("{}[{}]", variable.name, place) : member(variable, place));
     });
     return members;
   }
@@ -527,7 +528,7 @@ class C99Printer {
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state) continue;
       const std::string rest = rest_of(law_.variables.id_of(variable));
-      if (law_.is_rolled(variable.size))
+      if (variable.is_rolled())
         lines.push_back(
             fmt::format("for (int j = 0; j < {}; ++j) {{ self->{}[j] = {}; }}", variable.size, variable.name, rest));
       else

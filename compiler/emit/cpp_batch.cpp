@@ -284,7 +284,7 @@ class BatchPrinter {
   // In the order of the single class, whose rolled loops begin every lane at 0.
   std::string sum_text(VariableId summed) const {
     const Variable& vector = law_.variables[summed];
-    const std::size_t lanes = law_.is_rolled(vector.size) ? law_.lanes : 1;
+    const std::size_t lanes = vector.lanes.count;
     std::vector<std::string> parts(lanes, lanes > 1 ? "vector(0)" : "");
     for (std::size_t place = 0; place < vector.size; ++place) {
       std::string& part = parts[place % lanes];

@@ -26,9 +26,10 @@ void append_array(const Coefficient& coefficient, ScalarType scalar, const std::
 
 class CppPrinter {
  public:
-  CppPrinter(const UpdateLaw& law, const Network& network, Timing timing)
+  CppPrinter(const UpdateLaw& law, const Network& network, VectorRegisters registers, Timing timing)
       : law_(law),
         name_(network.name),
+        bytes_(bytes_of(registers)),
         timing_(timing),
         statements_(law, network, timing),
         between_samples_(law, network, Timing::any) {}
@@ -70,7 +71,7 @@ class CppPrinter {
     if (uses(law_, Operation::square_root)) headers.push_back("dashpot/elementary.hpp");
     if (!law_.couplings.empty()) headers.push_back("dashpot/slip_tree.hpp");
     if (law_.tunable) headers.push_back("dashpot/tunable_range.hpp");
-    if (law_.lanes > 1) headers.push_back("dashpot/vector.hpp");
+    if (has_loops(law_)) headers.push_back("dashpot/vector.hpp");
     return headers;
   }
 
@@ -147,7 +148,7 @@ class CppPrinter {
     if (std::any_of(lines.begin(), lines.end(), uses_vectors) || std::any_of(more.begin(), more.end(), uses_vectors))
       lines.insert(lines.begin(),
                    fmt::format("using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, {}>{}>;",
-                               law_.lanes, law_.register_bytes > 0 ? fmt::format(", {}", law_.register_bytes) : ""));
+                               lanes_of_loops(law_).count, bytes_ > 0 ? fmt::format(", {}", bytes_) : ""));
   }
 
   // What output() finds, update() uses at once. That nothing is left to update() is stored last: before, it would hold
@@ -182,9 +183,8 @@ class CppPrinter {
   }
 
   void append_constant(const Coefficient& coefficient, std::vector<std::string>& lines) const {
-    if (coefficient.is_table() || !statements_.is_rolled(coefficient))
-      return append_constant_of_each(coefficient, law_.scalar, lines);
-    append_array(coefficient, law_.scalar, alignment(), law_.padded(coefficient.values.size()), lines);
+    if (!coefficient.is_rolled()) return append_constant_of_each(coefficient, law_.scalar, lines);
+    append_array(coefficient, law_.scalar, alignment(), coefficient.lanes.padded(coefficient.values.size()), lines);
   }
 
   std::vector<std::string> reset() {
@@ -205,7 +205,7 @@ class CppPrinter {
                                     name_of(start)));
       else if (variable.size == 1)
         lines.push_back(fmt::format("{} = {};", CppStatements::scalar_name(variable), rest_value(variable)));
-      else if (statements_.is_rolled(variable)) lines.push_back(clearing(variable));
+      else if (variable.is_rolled()) lines.push_back(clearing(variable));
       else
         for (const std::string& name : variable.element_names)
           lines.push_back(fmt::format("{}_ = {};", name, rest_value(variable)));
@@ -257,9 +257,9 @@ class CppPrinter {
       if (variable.size == 1)
         lines.push_back(
             fmt::format("scalar {} = {};{}", CppStatements::scalar_name(variable), rest_value(variable), note));
-      else if (statements_.is_rolled(variable))
-        lines.push_back(
-            fmt::format("{}scalar {}_[{}] = {{}};{}", alignment(), variable.name, law_.padded(variable.size), note));
+      else if (variable.is_rolled())
+        lines.push_back(fmt::format("{}scalar {}_[{}] = {{}};{}", alignment(), variable.name,
+                                    variable.lanes.padded(variable.size), note));
       else
         for (const std::string& name : variable.element_names)
           lines.push_back(fmt::format("scalar {}_ = {};{}", name, rest_value(variable), note));
@@ -283,9 +283,7 @@ class CppPrinter {
   }
 
   // A register that straddles two lines of the cache takes two reads.
-  std::string alignment() const {
-    return law_.register_bytes > 0 ? fmt::format("alignas({}) ", law_.register_bytes) : "";
-  }
+  std::string alignment() const { return bytes_ > 0 ? fmt::format("alignas({}) ", bytes_) : ""; }
 
   std::string rest_value(const Variable& state) const {
     return state.rest_value == 0 ? "0" : literal(state.rest_value);
@@ -295,6 +293,7 @@ class CppPrinter {
 
   const UpdateLaw& law_;
   std::string name_;
+  std::size_t bytes_;  // of a register
   Timing timing_;
   CppStatements statements_;
   CppStatements between_samples_;  // of set() and reset(), whose time no sample waits for
@@ -307,8 +306,8 @@ std::string cpp_literal(double value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? fmt::format("{:#}", value) : fmt::format("{:#}f", static_cast<float>(value));
 }
 
-CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing) {
-  return CppPrinter(law, network, timing).print();
+CppProgram cpp_program(const UpdateLaw& law, const Network& network, VectorRegisters registers, Timing timing) {
+  return CppPrinter(law, network, registers, timing).print();
 }
 
 void add_program(const CppProgram& program, CodeModel& model) {

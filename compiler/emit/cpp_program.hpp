@@ -32,8 +32,9 @@ struct CppProgram {
 // Whether the code may branch, which costs nothing if branches are predicted, or takes the same time for all values.
 enum class Timing { any, constant };
 
-// In constant time: laws without couplings, networks and calls.
-CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing = Timing::any);
+// Loops are laid out for these registers. In constant time: laws without couplings, networks and calls.
+CppProgram cpp_program(const UpdateLaw& law, const Network& network, VectorRegisters registers,
+                       Timing timing = Timing::any);
 
 // All of it, as templates take it, under the names of its members.
 void add_program(const CppProgram& program, CodeModel& model);

@@ -45,7 +45,7 @@ std::vector<std::string> CppStatements::lines_of(const std::vector<Statement>& p
         if (e.operation == Operation::sum) summed_.insert(e.variable);
       });
   for (std::size_t i = 0; i < program.size();) {
-    if (!is_rolled(target(program[i]))) {
+    if (!target(program[i]).is_rolled()) {
       print_unrolled(program[i++], lines);
       continue;
     }
@@ -71,13 +71,14 @@ std::vector<std::string> CppStatements::lines_of(const std::vector<GuardInTurn>&
     std::string value = fmt::format("vector::flush_below(threshold, {})", force);
     if (branch_free_) value = fmt::format("vector::chosen(sampled, {}, {})", value, force);
     lines.push_back(fmt::format("// |F| below the threshold: F ← 0, of {} modes a sample in turn", guard.places));
-    if (guard.places <= 4 * law_.lanes) lines.push_back("DASHPOT_UNROLL");  // code that does not grow with the modes
+    if (guard.places <= 4 * forces.lanes.count)
+      lines.push_back("DASHPOT_UNROLL");  // code that does not grow with the modes
     lines.push_back(fmt::format("for (int j = 0, first = {}_; j < {}; j += vector::width)", guard.name, guard.places));
     append(lines, fmt::format("  vector::put({}, first + j, {});", array_name(forces), value));
     const std::string taken =
         branch_free_ ? fmt::format("({} & static_cast<int>(sampled))", guard.places) : std::to_string(guard.places);
     lines.push_back(fmt::format("{0}_ += {1};", guard.name, taken));
-    lines.push_back(fmt::format("{0}_ = {0}_ < {1} ? {0}_ : 0;", guard.name, law_.padded(forces.size)));
+    lines.push_back(fmt::format("{0}_ = {0}_ < {1} ? {0}_ : 0;", guard.name, forces.lanes.padded(forces.size)));
   }
   return lines;
 }
@@ -112,14 +113,17 @@ void CppStatements::print_loop(const std::vector<Statement>& program, std::size_
                                     program.begin() + static_cast<std::ptrdiff_t>(last));
   for (const Statement& statement : body) {
     const Variable& vector = target(statement);
-    if (outlives_loop(vector)) lines.push_back(fmt::format("scalar {}[{}];", vector.name, law_.padded(vector.size)));
+    if (outlives_loop(vector))
+      lines.push_back(fmt::format("scalar {}[{}];", vector.name, vector.lanes.padded(vector.size)));
     if (summed_.count(statement.target) != 0)
-      lines.push_back(fmt::format("dashpot::partial_sums<vector, {}> {};", law_.lanes, lane(vector)));
+      lines.push_back(fmt::format("dashpot::partial_sums<vector, {}> {};", vector.lanes.count, lane(vector)));
   }
   for (const Statement& statement : body) hoist_scalars(statement.value, lines);
-  lines.push_back(fmt::format("for (int i = 0; i < {}; i += {})", law_.padded(target(body.front()).size), law_.lanes));
+  const Lanes lanes = target(body.front()).lanes;
+  lines.push_back(
+      fmt::format("for (int i = 0; i < {}; i += {})", lanes.padded(target(body.front()).size), lanes.count));
   lines.push_back("  DASHPOT_UNROLL");
-  lines.push_back(fmt::format("  for (int j = i; j < i + {}; j += vector::width) {{", law_.lanes));
+  lines.push_back(fmt::format("  for (int j = i; j < i + {}; j += vector::width) {{", lanes.count));
   for (const Statement& statement : body) {
     const Variable& vector = target(statement);
     if (vector.role == Role::state && reads_of(statement.value, statement.target) > 1) {
@@ -197,7 +201,7 @@ std::string CppStatements::expression(ExpressionId id, std::size_t place) {
   spelling.sum = [&](VariableId summed) {
     const Variable& vector = law_.variables[summed];
     const std::string terms = sum_text(vector);
-    return is_whole || is_rolled(vector) || vector.size == 1 ? terms : "(" + terms + ")";
+    return is_whole || vector.is_rolled() || vector.size == 1 ? terms : "(" + terms + ")";
   };
   return expression_text(law_, id, spelling);
 }
@@ -218,7 +222,7 @@ std::string CppStatements::rolled_expression(ExpressionId id) {
 }
 
 std::string CppStatements::sum_text(const Variable& vector) {
-  if (is_rolled(vector)) return lane(vector) + ".total()";
+  if (vector.is_rolled()) return lane(vector) + ".total()";
   std::string text;
   for (std::size_t place = 0; place < vector.size; ++place)
     text += (place == 0 ? "" : " + ") + vector_name(vector, place);
@@ -235,7 +239,7 @@ std::string CppStatements::array_name(const Variable& variable) const {
 }
 
 std::string CppStatements::vector_name(const Variable& variable, std::size_t place) const {
-  if (is_rolled(variable))
+  if (variable.is_rolled())
     return is_array(variable) ? fmt::format("vector::at({}, j)", array_name(variable)) : variable.name;
   return variable.is_kept() ? variable.element_names[place] + "_" : variable.element_names[place];
 }

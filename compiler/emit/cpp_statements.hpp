@@ -32,11 +32,6 @@ class CppStatements {
   std::string rolled_expression(ExpressionId id);              // in a loop, of the places from j on
   static std::string scalar_name(const Variable& variable);
 
-  bool is_rolled(const Variable& variable) const { return law_.is_rolled(variable.size); }
-  bool is_rolled(const Coefficient& coefficient) const {
-    return law_.is_rolled(coefficient.values.size()) && !coefficient.is_table();
-  }
-
  private:
   void print_unrolled(const Statement& statement, std::vector<std::string>& lines);
   void print_loop(const std::vector<Statement>& program, std::size_t first, std::size_t last,

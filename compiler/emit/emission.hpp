@@ -29,7 +29,8 @@ struct Compilation {
   Decomposition decomposition;
   UpdateLaw law;
   Certificate certificate;
-  double rate = 0;  // [Hz]
+  double rate = 0;                                    // [Hz]
+  VectorRegisters registers = VectorRegisters::none;  // that loops are laid out for
   std::optional<Device> device;
   PortDevice port = PortDevice::ideal();  // the device as the network sees it
   std::vector<Compilation> ports = {};    // that act side by side, each on its share of the device

@@ -112,7 +112,7 @@ void describe(const AxesCompilation& c, Fields& fields) {
 CodeModel cpp_model(const AxesCompilation& c) {
   Network whole;
   whole.name = c.network.name;
-  const CppProgram program = cpp_program(c.law, whole);
+  const CppProgram program = cpp_program(c.law, whole, c.registers);
   CodeModel model;
   describe(c, model.fields);
   model.fields["motion"] = c.device.joint_motion() == motion::rotation ? "rotation" : "translation";

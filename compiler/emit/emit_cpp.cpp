@@ -18,7 +18,7 @@ namespace {
 
 CodeModel header_model(const Compilation& c, Timing timing) {
   const UpdateLaw& law = c.law;
-  const CppProgram program = cpp_program(law, c.network, timing);
+  const CppProgram program = cpp_program(law, c.network, c.registers, timing);
   CodeModel model;
   Fields& fields = model.fields;
   describe_file(c, fields);

@@ -139,14 +139,19 @@ class Check {
 
   void check_sizes(const Statement& statement) const {
     const Variable& target = law_.variables[statement.target];
-    const auto fits = [&](std::size_t size) { return size == 1 || size == target.size; };
+    const auto require_fit = [&](const std::string& name, std::size_t size, const Lanes& lanes) {
+      require(size == 1 || (size == target.size && lanes.count == target.lanes.count),
+              fmt::format("'{}' does not fit into '{}'", name, target.name));
+    };
     each_expression(law_, statement, [&](const Expression& e) {
-      if (e.operation == Operation::read)
-        require(fits(law_.variables[e.variable].size),
-                fmt::format("'{}' does not fit into '{}'", law_.variables[e.variable].name, target.name));
-      if (e.operation == Operation::constant)
-        require(fits(law_.coefficients[e.coefficient].values.size()),
-                fmt::format("'{}' does not fit into '{}'", law_.coefficients[e.coefficient].name, target.name));
+      if (e.operation == Operation::read) {
+        const Variable& read = law_.variables[e.variable];
+        require_fit(read.name, read.size, read.lanes);
+      }
+      if (e.operation == Operation::constant) {
+        const Coefficient& read = law_.coefficients[e.coefficient];
+        require_fit(read.name, read.values.size(), read.lanes);
+      }
     });
   }
 

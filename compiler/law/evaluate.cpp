@@ -86,6 +86,7 @@ class Evaluation<Scalar>::Translation {
     const bool is_value = e.operation == Operation::read || e.operation == Operation::constant;
     one.operands[facts.operands] = is_value ? place(first, size) : Place{first, 0};
     one.last = size - 1;
+    if (e.operation == Operation::sum) one.lanes = law_.variables[e.variable].lanes.count;
     if (is_value) one.count = size;
   }
 
@@ -114,7 +115,6 @@ Evaluation<Scalar>::Evaluation(const UpdateLaw& law) : law_(law) {
     for (const double value : coefficient.values) memory_.push_back(static_cast<Scalar>(value));
   }
   translate();
-  lanes_.resize(law.lanes);
   turns_.assign(law.guards.size(), 0);
   for (const Coupling& coupling : law.couplings) solvers_.push_back(solver_of(coupling));
   for (const SlipNetwork& network : law.networks) network_solvers_.push_back(solver_of(network));
@@ -278,7 +278,7 @@ void Evaluation<Scalar>::take_turn(const GuardInTurn& guard, std::size_t& turn) 
   for (std::size_t place = turn; place < std::min(turn + guard.places, size); ++place)
     forces[place] = flush_below(static_cast<Scalar>(law_.flush_threshold), forces[place]);
   turn += guard.places;
-  if (turn >= law_.padded(size)) turn = 0;
+  if (turn >= law_.variables[guard.state].lanes.padded(size)) turn = 0;
 }
 
 template <class Scalar>
@@ -411,7 +411,7 @@ void Evaluation<Scalar>::take(const Instruction& one) {
     case Operation::where: return at_each([&] { return *a > 0 ? *b : *c; });
     case Operation::relax: return at_each([&] { return *c + *a * flushed(*b); });
     case Operation::pick: return at_each([&] { return picked(b, one.last, *a); });
-    case Operation::sum: return at_each([&] { return sum(a, one.last + 1); });
+    case Operation::sum: return at_each([&] { return sum(a, one.last + 1, one.lanes); });
   }
 }
 
@@ -422,16 +422,17 @@ Scalar Evaluation<Scalar>::picked(const Scalar* table, std::size_t last, Scalar 
   return table[place < static_cast<Scalar>(last) ? static_cast<std::size_t>(place) : last];
 }
 
+// From the first place to the last; in lanes these take places in turn, and then join half by half.
 template <class Scalar>
-Scalar Evaluation<Scalar>::sum(const Scalar* vector, std::size_t size) {
-  if (!law_.is_rolled(size)) {
+Scalar Evaluation<Scalar>::sum(const Scalar* vector, std::size_t size, std::size_t lanes) {
+  if (lanes == 1) {
     Scalar total = vector[0];
     for (std::size_t i = 1; i < size; ++i) total += vector[i];
     return total;
   }
-  std::fill(lanes_.begin(), lanes_.end(), Scalar(0));
-  for (std::size_t i = 0; i < size; ++i) lanes_[i % law_.lanes] += vector[i];
-  for (std::size_t half = law_.lanes / 2; half > 0; half /= 2)
+  lanes_.assign(lanes, 0);
+  for (std::size_t i = 0; i < size; ++i) lanes_[i % lanes] += vector[i];
+  for (std::size_t half = lanes / 2; half > 0; half /= 2)
     for (std::size_t i = 0; i < half; ++i) lanes_[i] += lanes_[i + half];
   return lanes_[0];
 }

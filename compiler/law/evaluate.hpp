@@ -70,6 +70,7 @@ class Evaluation {
     std::size_t target;
     std::array<Place, 4> operands = {};  // and behind them what it names
     std::size_t last = 0;                // place of a table or vector
+    std::size_t lanes = 1;               // of a sum
     const Statement* solver = nullptr;   // of such a step
   };
   using Instructions = std::vector<Instruction>;
@@ -93,7 +94,7 @@ class Evaluation {
   void start();  // every state that starts somewhere, where the inputs are
   Scalar damping(VariableId changing) const;
   static Scalar picked(const Scalar* table, std::size_t last, Scalar place);
-  Scalar sum(const Scalar* vector, std::size_t size);
+  Scalar sum(const Scalar* vector, std::size_t size, std::size_t lanes);
   Scalar* at(VariableId id) { return memory_.data() + variables_[id.place()]; }
   const Scalar* at(VariableId id) const { return memory_.data() + variables_[id.place()]; }
 
@@ -101,7 +102,7 @@ class Evaluation {
   std::vector<Scalar> memory_;                         // variables, then constants, then what is between two operations
   std::vector<std::size_t> variables_, coefficients_;  // where each begins
   Instructions output_, keep_, update_, energy_, start_, rest_, tune_, carry_;
-  std::vector<Scalar> lanes_;       // of a sum
+  std::vector<Scalar> lanes_;       // room for those of a sum
   std::vector<std::size_t> turns_;  // of each guard, the first place that it takes next
   std::vector<Solver> solvers_;     // one a coupling
   std::vector<NetworkSolver> network_solvers_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "law/expression_text.hpp"
+#include "law/walk.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -98,8 +99,8 @@ std::string to_text(const UpdateLaw& law, const Network& network) {
                                  network.name, name_of(law.scheme), name_of(law.state_input), name_of(law.scalar),
                                  law.sample_period, damping, name_of(law.mode_form));
   if (law.tunable) text += tunable_text(*law.tunable);
-  if (law.lanes > 1)
-    text += fmt::format("  vectors of {} places and more are summed in {} partial sums\n", law.rolled_from, law.lanes);
+  if (has_loops(law))
+    text += fmt::format("  vectors in loops are summed in {} partial sums\n", lanes_of_loops(law).count);
   for (const Coefficient& coefficient : law.coefficients) {
     text += fmt::format("  {} [{}]", coefficient.name, coefficient.unit);
     for (double value : coefficient.values) text += fmt::format(" {}", value);

@@ -47,6 +47,15 @@ enum class Role : std::uint8_t {
   local,  // of one phase
 };
 
+// Of a vector: the partial sums that it is added up in, a power of two, where it is written as a loop; 1 where its
+// places are written one by one.
+struct Lanes {
+  std::size_t count = 1;
+
+  bool are_there() const { return count > 1; }
+  std::size_t padded(std::size_t size) const { return (size + count - 1) / count * count; }  // whole rounds of the loop
+};
+
 struct Variable {
   std::string name;
   std::string unit;
@@ -55,7 +64,9 @@ struct Variable {
   std::size_t size = 1;
   std::vector<std::string> element_names = {};  // of a vector, one name a place; empty for a scalar
   double rest_value = 0;                        // of a state, after reset()
+  Lanes lanes = {};
 
+  bool is_rolled() const { return lanes.are_there(); }
   bool is_kept() const { return role == Role::state || role == Role::tuned; }
 };
 
@@ -111,7 +122,9 @@ struct Coefficient {
   ConstantRole role = ConstantRole::none;
   std::size_t bank = port_bank;  // of a mode's constant
   std::vector<Subject> of = {};  // one a value, or one for all; none of what belongs to the whole law
+  Lanes lanes = {};
 
+  bool is_rolled() const { return lanes.are_there(); }
   bool is_table() const { return values.size() > 1 && element_names.empty(); }
 };
 
@@ -184,6 +197,9 @@ struct TunedNetwork {
   VariableId through = no_variable;
 };
 
+// How the names of its emitted tables end.
+inline constexpr const char* tables_of_slip_network[] = {"_links", "_between", "_to_tool", "_to_ground"};
+
 // Slips that meet where a network is no tree: one step is dashpot::slip_network. Ends are numbered as there.
 struct SlipNetwork {
   std::string name;  // of the emitted tables
@@ -249,9 +265,6 @@ struct UpdateLaw {
   double flush_threshold = 0;  // [N]: magnitudes below become zero
   ModeForm mode_form = ModeForm::product;
   double relative_error_bound = 0;  // of a mode's force, from rounding of coefficient and sums, at any time [1]
-  std::size_t lanes = 1;           // partial sums of a rolled vector's `sum`, a power of two; 1 where nothing is rolled
-  std::size_t rolled_from = 0;     // places of the smallest vector that is rolled
-  std::size_t register_bytes = 0;  // of the machine that loops are laid out for; 0 where it has no vectors
 
   Table<Variable> variables;
   Table<Coefficient> coefficients;
@@ -290,10 +303,6 @@ struct UpdateLaw {
   VariableId last_brake = no_variable;  // the state that remembers it: what a non-finite sample is answered with
   VariableId stored;                    // [J]
 
-  bool is_rolled(std::size_t size) const { return lanes > 1 && size > 1 && size >= rolled_from; }
-  std::size_t padded(std::size_t size) const {
-    return (size + lanes - 1) / lanes * lanes;
-  }  // of a rolled vector: whole rounds of its loop
   bool sheds() const { return share != no_variable; }
   VariableId checked() const {
     return wanted != no_variable ? wanted : force;

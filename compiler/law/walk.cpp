@@ -1,5 +1,7 @@
 #include "law/walk.hpp"
 
+#include <algorithm>
+
 namespace dashpot::compiler {
 namespace {
 
@@ -90,6 +92,12 @@ std::set<CoefficientId> constants_read(const UpdateLaw& law) {
     if (facts_of(e.operation).refers_to == Referent::coefficient) found.insert(e.coefficient);
   });
   return found;
+}
+
+Lanes lanes_of_loops(const UpdateLaw& law) {
+  Lanes all;
+  for (const Variable& variable : law.variables) all.count = std::max(all.count, variable.lanes.count);
+  return all;
 }
 
 bool uses(const UpdateLaw& law, Operation operation) {

@@ -48,6 +48,10 @@ bool reads(const UpdateLaw& law, const std::vector<Statement>& program, Variable
 std::set<CoefficientId> constants_read(const UpdateLaw& law);
 bool uses(const UpdateLaw& law, Operation operation);
 
+// Those of all its loops, which are alike; one where it has none.
+Lanes lanes_of_loops(const UpdateLaw& law);
+inline bool has_loops(const UpdateLaw& law) { return lanes_of_loops(law).are_there(); }
+
 inline std::array<const std::vector<Statement>*, 6> programs(const UpdateLaw& law) {
   return {&law.output, &law.keep, &law.update, &law.energy, &law.tune, &law.carry};
 }

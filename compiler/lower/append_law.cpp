@@ -30,9 +30,6 @@ class Appending {
     }
     law_.mode_form = std::max(law_.mode_form, own_.mode_form);
     law_.relative_error_bound = std::max(law_.relative_error_bound, own_.relative_error_bound);
-    law_.lanes = std::max(law_.lanes, own_.lanes);
-    law_.rolled_from = std::max(law_.rolled_from, own_.rolled_from);
-    law_.register_bytes = std::max(law_.register_bytes, own_.register_bytes);
     return std::move(result_);
   }
 

@@ -39,7 +39,7 @@ bool shows(const UpdateLaw& law, ExpressionId id, VariableId input) {
 
 bool is_fusable(const UpdateLaw& law) {
   const auto assigns = [](const Statement& statement) { return statement.assigns(); };
-  return law.lanes == 1 && std::all_of(law.output.begin(), law.output.end(), assigns) &&
+  return !has_loops(law) && std::all_of(law.output.begin(), law.output.end(), assigns) &&
          std::all_of(law.update.begin(), law.update.end(), assigns);
 }
 

@@ -53,26 +53,27 @@ ExpressionId without_guard(UpdateLaw& law, ExpressionId id) {
 void take_turns(UpdateLaw& law, Statement& statement) {
   const Variable& forces = law.variables[statement.target];
   const std::optional<double> decay = smallest_decay(law, statement.value);
-  if (forces.role != Role::state || !law.is_rolled(forces.size) || !decay) return;
-  const std::size_t rounds = law.padded(forces.size) / law.lanes, samples = samples_without_guard(*decay, law.scalar);
+  if (forces.role != Role::state || !forces.is_rolled() || !decay) return;
+  const std::size_t lanes = forces.lanes.count, rounds = forces.lanes.padded(forces.size) / lanes;
+  const std::size_t samples = samples_without_guard(*decay, law.scalar);
   std::size_t at_once = 1;
   while (at_once < rounds && (rounds % at_once != 0 || rounds / at_once > samples)) ++at_once;
   if (at_once >= rounds) return;
   const ExpressionId unguarded = without_guard(law, statement.value);
   if (unguarded == nothing) return;
   statement.value = unguarded;
-  law.guards.push_back({statement.target, at_once * law.lanes, forces.name + "_turn"});
+  law.guards.push_back({statement.target, at_once * lanes, forces.name + "_turn"});
 }
 
 }  // namespace
 
 UpdateLaw rolled(UpdateLaw law, VectorRegisters registers, bool guards_each_sample) {
-  const bool has_loops = std::any_of(law.variables.begin(), law.variables.end(),
-                                     [](const Variable& v) { return v.size > largest_straight_line; });
-  law.rolled_from = largest_straight_line + 1;
-  if (!has_loops) return law;
-  law.lanes = lanes_for(registers, law.scalar);
-  law.register_bytes = bytes_of(registers);
+  const Lanes lanes{lanes_for(registers, law.scalar)};
+  for (Variable& variable : law.variables)
+    if (variable.size > largest_straight_line) variable.lanes = lanes;
+  if (!has_loops(law)) return law;
+  for (Coefficient& c : law.coefficients)
+    if (c.values.size() > largest_straight_line && !c.is_table()) c.lanes = lanes;
   if (!guards_each_sample)
     for (Statement& statement : law.update) take_turns(law, statement);
   check_law(law, "rolling");

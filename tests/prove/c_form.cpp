@@ -31,7 +31,7 @@ class CForm {
 
  private:
   std::string member(const Variable& v, std::size_t place) const {
-    if (law_.is_rolled(v.size)) return fmt::format("self.{}[{}]", v.name, place);
+    if (v.is_rolled()) return fmt::format("self.{}[{}]", v.name, place);
     return "self." + (v.element_names.empty() ? v.name : v.element_names[place]);
   }
 

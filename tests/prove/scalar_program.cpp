@@ -24,9 +24,8 @@ std::string plus(const std::string& left, const std::string& right) {
 }
 
 // From the first to the last; of a rolled loop partial sums in turn, which then join half by half.
-std::string sum_text(const Variable& vector, const UpdateLaw& law) {
-  const bool rolled = law.is_rolled(vector.size);
-  std::vector<std::string> partial(rolled ? law.lanes : 1);
+std::string sum_text(const Variable& vector) {
+  std::vector<std::string> partial(vector.lanes.count);
   for (std::size_t i = 0; i < vector.size; ++i) {
     std::string& lane = partial[i % partial.size()];
     lane = plus(lane, scalar_name(vector, i));
@@ -52,7 +51,7 @@ std::vector<ScalarAssignment> scalar_program(const UpdateLaw& law, const std::ve
         const Coefficient& c = law.coefficients[id];
         return is_table(c) ? c.name : scalar_name(c, c.values.size() == 1 ? 0 : place);
       };
-      all.sum = [&](compiler::VariableId id) { return sum_text(law.variables[id], law); };
+      all.sum = [&](compiler::VariableId id) { return sum_text(law.variables[id]); };
       assignments.push_back({scalar_name(target, place), target.role == compiler::Role::local,
                              compiler::expression_text(law, statement.value, all)});
     }

@@ -65,6 +65,8 @@ TEST(CheckLaw, RefusesWhatIsNoLaw) {
               law.update.push_back({law.rest_position, read(law, state_of_several(law)), "", {}});
             }),
             "a pass: 'mode_force' does not fit into 'last_position'");
+  EXPECT_EQ(complaint_after([](UpdateLaw& law) { law.variables[state_of_several(law)].lanes = {8}; }).substr(0, 13),
+            "a pass: 'mode");
   EXPECT_EQ(complaint_after([](UpdateLaw& law) { law.coefficients.begin()->role = ConstantRole::none; }).substr(0, 17),
             "a pass: constant ");
   EXPECT_EQ(complaint_after([](UpdateLaw& law) { law.coefficients.begin()->role = ConstantRole::yield; }),

@@ -76,8 +76,8 @@ TEST(Evaluate, Relax) {
 // half is added to the first.
 double sum_in(std::size_t lanes) {
   HandWritten h;
-  h.law.lanes = lanes;
   const VariableId terms = h.variable("terms", Role::local, 4);
+  h.law.variables[terms].lanes = {lanes};
   h.law.output.push_back({terms, h.constant({1, 0x1p-53, -1, 0x1p-53}), "", {}});
   h.law.output.push_back({h.law.force, h.sum(terms), "", {}});
   return force_of(h, 0, 0);

@@ -25,7 +25,7 @@ class BatchPrinter {
     std::vector<Statement> update = law_.keep;
     update.insert(update.end(), law_.update.begin(), law_.update.end());
     update = needed_of(update);
-    batch.output = lines_of(read_of(law_.output, update));
+    batch.output = lines_of(output_read_by(update));
     batch.update = lines_of(update);
     batch.energy = lines_of(law_.energy);
     batch.loads = loads();
@@ -103,16 +103,21 @@ class BatchPrinter {
     return needed;
   }
 
-  // Without what is remembered for those who ask the single class, and is nothing to a point.
-  std::vector<Statement> read_of(std::vector<Statement> program, const std::vector<Statement>& update) const {
+  // Without what is remembered for those who ask the single class, and what that alone follows from.
+  std::vector<Statement> output_read_by(const std::vector<Statement>& update) const {
     std::set<VariableId> read = kept_;
     for (const VariableId given : {law_.force, law_.brake, law_.last_brake, law_.checked()}) read.insert(given);
-    for (const auto* other : {&law_.output, &update, &law_.energy})
-      for (const Statement& statement : *other)
-        each_read(law_, statement, [&](VariableId found) { read.insert(found); });
-    std::erase_if(program,
+    const auto add_reads = [&](const Statement& statement) {
+      each_read(law_, statement, [&](VariableId found) { read.insert(found); });
+    };
+    for (const auto* other : {&update, &law_.energy})
+      for (const Statement& statement : *other) add_reads(statement);
+    std::vector<Statement> output = law_.output;
+    for (auto statement = output.rbegin(); statement != output.rend(); ++statement)
+      if (!statement->assigns() || read.count(statement->target) != 0) add_reads(*statement);
+    std::erase_if(output,
                   [&](const Statement& statement) { return statement.assigns() && read.count(statement.target) == 0; });
-    return program;
+    return output;
   }
 
   std::set<VariableId> assigned_by(std::initializer_list<const std::vector<Statement>*> programs) const {

@@ -149,5 +149,21 @@ TEST(StrictBatch, OfCoupledSlipsLeavesNoSymbolUndefined) {
     expect_no_symbol_undefined(folder.path(), emitted.path, caller_of_batch(name, "d, f"), name, {"-O2", "-O3"});
 }
 
+// Fails likewise where what only the single class remembers, the least of three ports' shares, is worked out here too.
+TEST(StrictBatch, OfPortsThatShedLeavesNoSymbolUndefined) {
+  const TemporaryFolder folder;
+  std::string ports;
+  for (const char* name : {"a", "b", "c"})
+    ports += fmt::format(R"({}{{"name": "{}", "network": {{"parallel": [{{"spring": 100}},
+                         {{"series": [{{"spring": 50}}, {{"damper": 5}}]}}]}}}})",
+                         ports.empty() ? "" : ", ", name);
+  write_text(folder.path() / "three.json",
+             fmt::format(R"({{"dashpot": 1, "name": "three", "motion": "translation", "ports": [{}]}})", ports));
+  const EmittedFolder emitted = emit_headers(folder.path() / "out", {folder.path() / "three.json"},
+                                             "--batch --uncertified --device '" DASHPOT_NETWORKS
+                                             "/../runtime/devices/pantograph_brake_2009.json'");
+  expect_no_symbol_undefined(folder.path(), emitted.path, caller_of_batch("three"), "three", {"-O2"});
+}
+
 }  // namespace
 }  // namespace dashpot::testing

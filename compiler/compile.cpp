@@ -207,7 +207,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
 
 std::optional<Compilation> compile(Network network, const Choices& asked, const std::optional<Device>& device,
                                    Diagnostics& diagnostics, StageTimes& times) {
-  if (!network.ports.empty()) return compile_ports(std::move(network), asked, device, diagnostics);
+  if (!network.ports.empty()) return compile_ports(std::move(network), asked, device, diagnostics, times);
   Choices choices = with_names(asked, device || has_slips(network));
   if (!settle_tunables(network, choices, diagnostics)) return std::nullopt;
   Network present = at_default(network);

@@ -66,12 +66,11 @@ bool are_smooth(const AxesNetwork& network, const axes::Box& workspace, Diagnost
   return all;
 }
 
-bool compile_ports(AxesCompilation& c, const Choices& asked, Diagnostics& diagnostics) {
+bool compile_ports(AxesCompilation& c, const Choices& asked, Diagnostics& diagnostics, StageTimes& times) {
   for (const Port& port : c.network.ports) {
-    StageTimes unseen;
     const Choices choices = choices_of_port(port, asked, c.rate);
     c.choices_of_ports.push_back(choices);
-    std::optional<Compilation> compiled = compile(port.network, choices, std::nullopt, diagnostics, unseen);
+    std::optional<Compilation> compiled = compile(port.network, choices, std::nullopt, diagnostics, times);
     if (!compiled) return false;
     c.port_laws.push_back(
         without_unread_locals(discretise(compiled->network, compiled->form, compiled->decomposition, choices, c.rate)));
@@ -234,7 +233,9 @@ std::optional<std::vector<double>> brakes_that_would_do(const AxesCompilation& c
 }
 
 std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choices& asked,
-                                            const std::optional<AxesDevice>& device, Diagnostics& diagnostics) {
+                                            const std::optional<AxesDevice>& device, Diagnostics& diagnostics,
+                                            StageTimes& times) {
+  times.enter("front end");
   const std::size_t errors_before = diagnostics.error_count();
   const std::optional<AxesNetworkDecl> decl = parse_axes_network(source, diagnostics);
   if (!decl) return std::nullopt;
@@ -255,8 +256,10 @@ std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choi
   if (device && !are_smooth(c.network, device->workspace, diagnostics)) return std::nullopt;
   const auto* const named = std::get_if<std::string>(&asked.decomposition);
   c.decomposition = named && !named->empty() ? *named : std::string(name_of(c.rule));
-  if (!compile_ports(c, asked, diagnostics)) return std::nullopt;
+  if (!compile_ports(c, asked, diagnostics, times)) return std::nullopt;
+  times.enter("certificate");
   c.certificate = certify_axes(c.network, certified_ports(c), c.device, c.rule);
+  times.enter("discretisation");
   c.joint_ranges = known_ranges(c.device);
   c.law = begun_at_rest(law_of_all(c));
   Network whole;

@@ -7,13 +7,15 @@
 #include "decompose/choices.hpp"
 #include "emit/axes_emission.hpp"
 #include "source/diagnostic.hpp"
+#include "stage_times.hpp"
 
 namespace dashpot::compiler {
 
 // In: a network file with "axes": 2, the user's choices, a device of two axes or none. Out: everything about it.
-// Refuses: what any stage refuses.
+// Refuses: what any stage refuses. Adds to `times` what each stage took.
 std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choices& choices,
-                                            const std::optional<AxesDevice>& device, Diagnostics& diagnostics);
+                                            const std::optional<AxesDevice>& device, Diagnostics& diagnostics,
+                                            StageTimes& times);
 
 // For each brake a limit with which the network would be certified, all raised alike, in two digits; empty where
 // nothing is proved, or no brake is enough.

@@ -87,12 +87,12 @@ Device shared(Device device, const DeviceShare& share) {
 // What has been found of a port once is kept in `network`: the map of its curve.
 std::optional<std::vector<Compilation>> each_port(Network& network, const Choices& choices,
                                                   const std::optional<Device>& device,
-                                                  const std::vector<DeviceShare>& shares, Diagnostics& diagnostics) {
+                                                  const std::vector<DeviceShare>& shares, Diagnostics& diagnostics,
+                                                  StageTimes& times) {
   std::vector<Compilation> ports;
   for (std::size_t i = 0; i < network.ports.size(); ++i) {
-    StageTimes unseen;
     const std::optional<Device> own = device ? std::optional(shared(*device, shares[i])) : std::nullopt;
-    std::optional<Compilation> port = compile(network.ports[i], choices, own, diagnostics, unseen);
+    std::optional<Compilation> port = compile(network.ports[i], choices, own, diagnostics, times);
     if (!port) return std::nullopt;
     network.ports[i].map = port->network.map;
     port->share = shares[i];
@@ -103,14 +103,15 @@ std::optional<std::vector<Compilation>> each_port(Network& network, const Choice
 
 // Each on the whole device first, to see what it would take of it.
 std::optional<std::vector<Compilation>> ports_on(Network& network, const Choices& choices,
-                                                 const std::optional<Device>& device, Diagnostics& diagnostics) {
+                                                 const std::optional<Device>& device, Diagnostics& diagnostics,
+                                                 StageTimes& times) {
   const std::vector<DeviceShare> whole(network.ports.size());
-  if (!device) return each_port(network, choices, device, whole, diagnostics);
+  if (!device) return each_port(network, choices, device, whole, diagnostics, times);
   Diagnostics of_trial;  // what is wrong on the whole device is wrong on a share of it, and reported there
   Choices quickly = choices;
   quickly.compared = Compared::nothing;
-  const auto alone = each_port(network, quickly, device, whole, of_trial);
-  return each_port(network, choices, device, alone ? shares_of(*alone) : whole, diagnostics);
+  const auto alone = each_port(network, quickly, device, whole, of_trial, times);
+  return each_port(network, choices, device, alone ? shares_of(*alone) : whole, diagnostics, times);
 }
 
 // Of a law that clips, as the device would clip it alone: its share of the motor's force.
@@ -277,7 +278,7 @@ Decomposition choice_of_all(const std::vector<Compilation>& ports, const Choices
 }  // namespace
 
 std::optional<Compilation> compile_ports(Network network, const Choices& asked, const std::optional<Device>& device,
-                                         Diagnostics& diagnostics) {
+                                         Diagnostics& diagnostics, StageTimes& times) {
   if (const auto* damping = std::get_if<double>(&asked.decomposition)) {
     diagnostics.report<DiagnosticCode::damping_for_ports>({}, *damping);
     return std::nullopt;
@@ -293,7 +294,7 @@ std::optional<Compilation> compile_ports(Network network, const Choices& asked, 
   // One rule for all, with slips in some of them or not.
   const Choices choices =
       with_names(asked, device || std::any_of(network.ports.begin(), network.ports.end(), has_slips));
-  std::optional<std::vector<Compilation>> ports = ports_on(network, choices, device, diagnostics);
+  std::optional<std::vector<Compilation>> ports = ports_on(network, choices, device, diagnostics, times);
   if (!ports) return std::nullopt;
   std::vector<ParallelPort> laws;
   for (const Compilation& port : *ports) laws.push_back({port.network.name, port.law, clamp_of(port)});

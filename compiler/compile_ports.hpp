@@ -6,6 +6,7 @@
 #include "decompose/choices.hpp"
 #include "emit/emission.hpp"
 #include "source/diagnostic.hpp"
+#include "stage_times.hpp"
 
 namespace dashpot::compiler {
 
@@ -13,6 +14,6 @@ namespace dashpot::compiler {
 // share of brake, motor and the device's own damping; what is certified is the sum on the whole device. Refuses: what
 // any stage refuses of a port; a damping as the decomposition, which would be every port's.
 std::optional<Compilation> compile_ports(Network network, const Choices& choices, const std::optional<Device>& device,
-                                         Diagnostics& diagnostics);
+                                         Diagnostics& diagnostics, StageTimes& times);
 
 }  // namespace dashpot::compiler

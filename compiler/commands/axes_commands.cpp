@@ -283,8 +283,14 @@ bool as_many_axes(const SourceFile& network, const DeviceChoice& device, Diagnos
 
 std::optional<AxesCompilation> compile_axes(const SourceFile& network, const Options& options,
                                             const DeviceChoice& device, Diagnostics& diagnostics) {
+  StageTimes unseen;
+  return compile_axes(network, options, device, diagnostics, unseen);
+}
+
+std::optional<AxesCompilation> compile_axes(const SourceFile& network, const Options& options,
+                                            const DeviceChoice& device, Diagnostics& diagnostics, StageTimes& times) {
   if (!as_many_axes(network, device, diagnostics)) return std::nullopt;
-  return compile_axes(network, options.choices, device.axes_device, diagnostics);
+  return compile_axes(network, options.choices, device.axes_device, diagnostics, times);
 }
 
 std::string explain_axes(const AxesCompilation& compilation, bool as_json, bool with_legend) {

@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "emit/axes_emission.hpp"
+#include "stage_times.hpp"
 
 namespace dashpot::compiler {
 
@@ -18,6 +19,8 @@ bool has_two_axes(const SourceFile& network);
 // Everything about the network in --name and --device's terms; nothing, reported, where it is refused.
 std::optional<AxesCompilation> compile_axes(const SourceFile& network, const Options& options,
                                             const DeviceChoice& device, Diagnostics& diagnostics);
+std::optional<AxesCompilation> compile_axes(const SourceFile& network, const Options& options,
+                                            const DeviceChoice& device, Diagnostics& diagnostics, StageTimes& times);
 
 // What `explain` prints.
 std::string explain_axes(const AxesCompilation& compilation, bool as_json, bool with_legend);

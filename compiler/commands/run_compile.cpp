@@ -195,7 +195,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
   for (const std::string& path : options.networks) {
     const SourceFile* file = open_network(path, options, files, diagnostics);
     if (file && has_two_axes(*file)) {
-      const auto compiled = compile_axes(*file, options, device, diagnostics);
+      const auto compiled = compile_axes(*file, options, device, diagnostics, times);
       times.enter("emission");
       if (compiled && options.print) shown += axes_stage_text(*compiled, *options.print);
       else if (const auto emitted = compiled ? emit_axes(*compiled, options, diagnostics) : std::nullopt) {

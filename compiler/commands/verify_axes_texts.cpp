@@ -26,7 +26,8 @@ std::optional<AxesCompilation> recompiled(const SourceFile& file, const AxesCert
     if (!device) return no_certificate(), std::nullopt;
   }
   Diagnostics of_network;  // its warnings were given when it was compiled
-  std::optional<AxesCompilation> compiled = compile_axes(network, certificate.choices, device, of_network);
+  StageTimes unseen;
+  std::optional<AxesCompilation> compiled = compile_axes(network, certificate.choices, device, of_network, unseen);
   if (!compiled) {
     diagnostics.take_errors(of_network);
     return no_certificate(), std::nullopt;

@@ -177,6 +177,17 @@ class Files(CommandTest):
         self.assertEqual(list(timings), stages)
         self.assertAlmostEqual(timings.pop("total"), sum(timings.values()), delta=1e-12)
 
+    def test_the_timings_of_two_axes(self):
+        """Fails if a stage that two axes or several ports go through too is counted under another."""
+        two_axes = SOURCE / "networks/axes/kelvin_field.json"
+        for networks in ([two_axes], ["ports.json"]):
+            self.write("ports.json", json.dumps({"dashpot": 1, "name": "ports", "ports": [
+                {"name": "left", "network": {"spring": 20}}, {"name": "right", "network": {"damper": 0.5}}]}))
+            told = self.dashpot("compile", *networks, "--timings", "json", "-o", "timed").stderr
+            timings = json.loads(next(line for line in told.splitlines() if line.startswith("{")))["timings"]
+            for stage in ["front end", "normal form", "decomposition", "discretisation", "certificate", "emission"]:
+                self.assertGreater(timings[stage], 0, stage)
+
     def test_the_rate(self):
         """Fails if the period in the code is not that of --rate, or of the device."""
         self.dashpot("compile", "kelvin.json", "--rate", "4000")

@@ -2,9 +2,9 @@
 //
 // Over a sample the linear part answers like springs between the ends of the slips, the tool and the ground, and forces
 // held at them. The inner ends move to where Φ = Σ ½ c (x_i − x_j)² + Σ p_i x_i + Σ Y |x_a − x_b| is least. A pattern
-// says of each slip whether it holds or to which side it gives way. With the pattern given, Φ is least where a linear
-// system says; on the way there the first slip that would turn back holds; and where none does, the first group of ends
-// that is pulled harder than its slips hold gives way. Each pattern's least value is below the one before: none comes
+// says of each slip whether it holds or to which side it slides. For a given pattern the least Φ follows from a linear
+// system. On the way there the first slip that would turn back is made to hold; if none does, the first group of ends
+// that is pulled harder than its slips hold is let go. Each pattern's least value is below the one before: none comes
 // twice, and no more are tried than there are. The pattern of the sample before comes first.
 //
 // Systems are solved without a subtraction (Grassmann, Taksar & Heyman 1985), so that stiff and soft parts do not blur,
@@ -53,7 +53,7 @@ static inline scalar law_held_by(const law_network *n, int k) {
 // The last of a group that neither tool nor ground holds.
 static inline int law_is_free(const law_network *n, int i) { return n->group[i] == i; }
 
-// Ends joined by slips that hold move as one. A slip between ends of one group holds, whatever was thought of it.
+// Ends joined by slips that hold move as one. A slip between ends of one group holds, whatever the pattern says.
 static inline void law_join(law_network *n) {
   for (int i = 0; i < (n->nodes + 2); ++i) n->group[i] = i;
   for (int k = 0; k < n->slips; ++k) {
@@ -122,7 +122,7 @@ static inline void law_eliminate_groups(law_network *n) {
   }
 }
 
-// A part that nothing but slips holds, and that they do not hold in balance, moves until one of them does.
+// A part that is tied to nothing but sliding slips, whose forces do not balance, moves on until one of them holds.
 static inline void law_place(law_network *n, int k) {
   n->target[k] = n->moved[k];
   if (n->pivot[k] == 0) {
@@ -135,7 +135,7 @@ static inline void law_place(law_network *n, int k) {
   n->target[k] = sum / n->pivot[k];
 }
 
-// Where Φ is least with this pattern.
+// Finds where Φ is least with this pattern.
 static inline void law_aim(law_network *n) {
   law_join(n);
   law_gather(n);
@@ -149,8 +149,8 @@ static inline void law_arrive(law_network *n) {
   for (int i = 0; i < n->nodes; ++i) n->moved[i] = law_target(n, i);
 }
 
-// After a guess: gives every slip the side to which it went; true where that is not what was thought. A surface that
-// the tool would be behind is taken along first.
+// After a guessed pattern: sets every slip to the side to which it moved; true if that differs from the guess. A
+// surface that the tool would have passed is moved along with it first.
 static inline int law_turn_back(law_network *n) {
   for (int k = 0; k < n->slips; ++k)
     if ((n->links[k].lowest == 0) && (law_stretch(n, k) > 0) && (n->links[k].b < n->nodes))
@@ -182,7 +182,7 @@ static inline void law_point_along_ray(law_network *n) {
     if (law_is_free(n, i)) n->target[i] += n->moved[i];
 }
 
-// Towards the target, as far as no slip turns back: true where that is all the way.
+// Moves towards the target until a slip would turn back: true if none does on the whole way.
 static inline int law_advance_ends(law_network *n) {
   int first = n->slips;
   scalar way = 1;
@@ -194,7 +194,7 @@ static inline int law_advance_ends(law_network *n) {
     if ((n->sign[k] > 0) ? !(further < 0) : !(further > 0)) continue;
     scalar until = -here / further;
     if (until < 0) until = 0;
-    // Along a ray the first that is met counts, however far it is.
+    // Along a ray the first slip that would turn back counts, however far it is.
     const int may_be_far = (first == n->slips) && (n->ray < n->nodes);
     if (!may_be_far && !(until < way)) continue;
     first = k;
@@ -214,13 +214,13 @@ static inline void law_add_pull(law_network *n, int i, scalar force) {
   n->pull_weight[i] += law_size(force);
 }
 
-// A stiff tie answers the rounding of either end too.
+// The pull of a stiff tie contains the rounding errors of both ends' displacements.
 static inline void law_add_tie(law_network *n, int i, scalar stiffness, scalar other) {
   law_add_pull(n, i, stiffness * (n->moved[i] - other));
   n->pull_weight[i] += law_size(stiffness) * (law_size(n->moved[i]) + law_size(other)) * NUMBER(0.125);
 }
 
-// Forces that the linear part and the slips that give way leave at each inner end.
+// The sum of the forces of the linear part and of the sliding slips at each inner end.
 static inline void law_find_pulls(law_network *n) {
   for (int i = 0; i < n->nodes; ++i) {
     n->pull[i] = n->held[i];
@@ -275,8 +275,8 @@ static inline int law_try_ends(law_network *n, unsigned ends, unsigned members, 
   return 1;
 }
 
-// True after letting go what is pulled harder than the slips around it hold: some ends of a group, in one piece, away
-// from the others, in one piece too. What is held by tool or ground stays, else the last end.
+// Lets go ends of a group that are pulled harder than the slips around them hold, and returns true; false if there
+// are none. They and the rest of the group are each connected. The rest has the tool or ground, or else the last end.
 static inline int law_give_way(law_network *n) {
   law_find_pulls(n);
   for (int group = 0; group < (n->nodes + 2); ++group) {
@@ -304,7 +304,7 @@ static inline scalar law_network_force(law_network *n) {
   return force;
 }
 
-// Patterns that can hold: of a contact two, of a slip three.
+// The number of patterns: a contact has two states, a slip three.
 static inline int law_patterns(const law_network *n) {
   int patterns = 1;
   for (int k = 0; k < n->slips; ++k) patterns *= (n->links[k].lowest == 0) ? 2 : 3;

@@ -86,7 +86,7 @@ static inline law_corner law_make_corner(int by_force, scalar at, scalar value, 
   return corner;
 }
 
-// From the nearer corner, never beyond either.
+// Interpolates from the nearer corner, never beyond either.
 static inline scalar law_between(const law_corner *a, const law_corner *b, int by_force, scalar at) {
   const scalar low = law_corner_value(a, by_force), high = law_corner_value(b, by_force);
   if (low == high) return low;
@@ -210,7 +210,7 @@ static inline void law_draw_slip(const law_tree *tree, int k) {
   tree->parts[k].corners = 2;
 }
 
-// The sum of two curves, `to` being where the first one lies and the sum shall.
+// The sum of two curves; `to` is where the first one is stored, and then the sum.
 static inline law_curve law_with(const law_tree *tree, law_curve sum, const law_curve *other, law_corner *to, int room) {
   const law_corner *from = (sum.count == 0) ? other->corners : tree->merged;
   const int count =
@@ -220,7 +220,7 @@ static inline law_curve law_with(const law_tree *tree, law_curve sum, const law_
   return both;
 }
 
-// In series the point where the block rests is one of the curve too.
+// In series the point where the block has no elongation is added to the curve.
 static inline law_curve law_with_block(law_curve sum, const law_node *block, scalar held, law_corner *corners, int room) {
   if (sum.by_force) {
     const law_range rest = law_curve_at(&sum, held);
@@ -273,7 +273,8 @@ static inline void law_find_signs_in_parallel(const law_tree *tree, int k) {
   }
 }
 
-// What is left over goes to those that may give way at this force, in turn; all but the last as far as they can.
+// The elongation that is left over goes to the parts that slide at this force, in turn; all but the last get as much
+// as they can.
 static inline void law_place_rest(const law_tree *tree, int k, scalar rest, scalar force) {
   const law_node *node = &tree->nodes[k];
   int is_placed = 0;
@@ -353,7 +354,7 @@ static inline void law_add_up_parallel(const law_tree *tree, int k) {
   else law_become(&tree->parts[k], law_affine, stiffness, 1 / stiffness, force);
 }
 
-// The child that holds a constant force, by choice the one that takes the rest; 0 for none.
+// A child that holds a constant force, preferably the one that takes the rest; 0 for none.
 static inline int law_constant_child(const law_tree *tree, int k) {
   const law_node *node = &tree->nodes[k];
   int found = 0;
@@ -362,7 +363,8 @@ static inline int law_constant_child(const law_tree *tree, int k) {
   return found;
 }
 
-// A constant force wins; rigid parts drop out; 1/g = Σ 1/g_i, π = g Σ π_i/g_i; all rigid → rigid.
+// If a part has a constant force, that is the force of all; rigid parts drop out; 1/g = Σ 1/g_i, π = g Σ π_i/g_i; all
+// rigid → rigid.
 static inline void law_add_up_series(const law_tree *tree, int k) {
   const law_node *node = &tree->nodes[k];
   law_part_state *whole = &tree->parts[k];

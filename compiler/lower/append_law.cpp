@@ -38,18 +38,21 @@ class Appending {
     return id == own_.last_brake && id != no_variable && !reads(own_, own_.output, id) && !reads(own_, own_.update, id);
   }
 
-  std::string name_in_all(const std::string& own) {
-    std::string name = writer_.unique(joined(name_, own));
-    law_.names_in_ports[name] = {name_, own};
-    return name;
-  }
-
   template <class Entry>
   Entry renamed(Entry entry) {
-    entry.name = name_in_all(entry.name);
+    entry.name = writer_.unique(joined(name_, entry.name));
     if constexpr (requires { entry.element_names; })
-      for (std::string& name : entry.element_names) name = name_in_all(name);
+      for (std::string& name : entry.element_names) name = writer_.unique(joined(name_, name));
     return entry;
+  }
+
+  void remember(const std::string& name, const std::string& own) { law_.names_in_ports[name] = {name_, own}; }
+
+  Coefficient constant(const Coefficient& own) {
+    Coefficient all = renamed(own);
+    remember(all.name, own.name);
+    for (std::size_t i = 0; i < own.element_names.size(); ++i) remember(all.element_names[i], own.element_names[i]);
+    return all;
   }
 
   void append_tables() {
@@ -68,7 +71,7 @@ class Appending {
     }
     const std::size_t coefficients = law_.coefficients.size();
     expressions_ = law_.expressions.size(), couplings_ = law_.couplings.size(), networks_ = law_.networks.size();
-    for (const Coefficient& c : own_.coefficients) law_.coefficients.add(renamed(c));
+    for (const Coefficient& c : own_.coefficients) law_.coefficients.add(constant(c));
     for (Expression e : own_.expressions) {
       for (std::size_t i = 0; i < operands(e).size(); ++i)
         e.operands[i] = ExpressionId(e.operands[i].place() + expressions_);
@@ -79,11 +82,14 @@ class Appending {
     for (Coupling coupling : own_.couplings) {
       for (auto* ids : {&coupling.held, &coupling.elongation, &coupling.sign}) move(*ids);
       coupling.surface_change = result_.at(coupling.surface_change);
-      law_.couplings.add(renamed(std::move(coupling)));
+      const std::string own = coupling.name;
+      remember(law_.couplings[law_.couplings.add(renamed(std::move(coupling)))].name, own);
     }
     for (SlipNetwork network : own_.networks) {
       for (auto* ids : {&network.held, &network.moved, &network.sign, &network.last_sign}) move(*ids);
-      law_.networks.add(renamed(std::move(network)));
+      const std::string own = network.name;
+      const SlipNetworkId id = law_.networks.add(renamed(std::move(network)));
+      for (const char* table : tables_of_slip_network) remember(law_.networks[id].name + table, own + table);
     }
   }
 

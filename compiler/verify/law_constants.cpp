@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace dashpot::compiler {
 
 std::optional<LawConstant> constant_called(const std::string& name, std::size_t values, const UpdateLaw& law) {
@@ -71,7 +73,38 @@ void compare(const HeaderConstant& constant, const std::vector<Reference>& exact
              Diagnostics& diagnostics) {
   if (constant.values.size() != exact.size())
     return diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.written);
-  for (std::size_t i = 0; i < exact.size(); ++i) compare(constant, i, exact[i], scalar, diagnostics);
+  for (std::size_t i = 0; i < exact.size(); ++i)
+    if (!is_correctly_rounded(constant.values[i], exact[i], scalar))
+      return compare(constant, i, exact[i], scalar, diagnostics);
+}
+
+void compare_with_compiled(const HeaderConstant& constant, const LawConstant& compiled, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < constant.values.size(); ++i) {
+    const double due = compiled.coefficient->values[compiled.first + i];
+    if (constant.values[i] != due)
+      return diagnostics.report<DiagnosticCode::constant_wrong>({}, shown(constant, i), constant.values[i],
+                                                                fmt::format("{}", due));
+  }
+}
+
+void look_at_literals(const HeaderConstant& literals, const UpdateLaw& law, const std::vector<Reference>& fixed_yields,
+                      Diagnostics& diagnostics) {
+  const auto holds = [](const auto& all, const auto& is) { return std::any_of(all.begin(), all.end(), is); };
+  for (std::size_t i = 0; i < literals.values.size(); ++i) {
+    const double value = literals.values[i];
+    const bool is_known =
+        holds(law.variables,
+              [&](const Variable& v) { return v.is_kept() && (v.rest_value == value || v.rest_value == -value); }) ||
+        holds(law.networks,
+              [&](const SlipNetwork& network) {
+                return network.through == value || (!network.links.empty() && network.links.back().lowest == 0 &&
+                                                    network.links.back().highest == value);
+              }) ||
+        holds(fixed_yields, [&](const Reference& yield) {
+          return is_correctly_rounded(value, yield, law.scalar) || is_correctly_rounded(-value, yield, law.scalar);
+        });
+    if (!is_known) diagnostics.report<DiagnosticCode::constant_of_nothing>({}, shown(literals, i), value);
+  }
 }
 
 void compare_with_facts(const HeaderConstant& constant, const Compilation& compiled, const LawFacts& facts,

@@ -24,10 +24,6 @@ bool give_to_port(const HeaderConstant& constant, const UpdateLaw& law, std::vec
 // Computes all constants of the port anew, and reports every disagreement.
 void recompute_port(const VerifiedPort& port, ScalarType scalar, Diagnostics& diagnostics);
 
-// Reports literals at which no state of the law rests, and that join tool and ground in none of its parts that are no
-// tree.
-void look_at_literals(const HeaderConstant& literals, const UpdateLaw& law, Diagnostics& diagnostics);
-
 // Reports a constant that the law, written again, has not got.
 void compare_with_written(const HeaderConstant& constant, const UpdateLaw& law, Diagnostics& diagnostics);
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "discretise/law_writer.hpp"
+#include "law/walk.hpp"
 #include "verify/law_constants.hpp"
 #include "verify/port_constants.hpp"
 #include "verify/recompiled.hpp"
@@ -48,7 +50,7 @@ class AxesVerification {
 
  private:
   void look_at(const HeaderConstant& constant) {
-    if (constant.name == literals_in_code) return look_at_literals(constant, c_.law, diagnostics_);
+    if (constant.name == literals_in_code) return look_at_literals(constant, c_.law, {}, diagnostics_);
     if (constant.name == "added_damping") return compare_additions(constant);
     const auto known = named_.find(constant.name);
     if (known != named_.end() && constant.values.size() == 1)
@@ -60,12 +62,15 @@ class AxesVerification {
     compare_with_written(constant, c_.law, diagnostics_);
   }
 
+  // What the names of the tables of a port's map begin with.
+  static std::string map_of(const std::string& port) { return joined(port, "map") + "_"; }
+
   // The port over a grid that has this table; of two whose names both begin it, the longer.
   std::optional<std::size_t> port_of_map(const std::string& table) const {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < ports_.size(); ++i) {
       const bool is_its_own =
-          std::holds_alternative<axes::Grid>(c_.network.ports[i].map) && table.starts_with(ports_[i].name + "_map_");
+          std::holds_alternative<axes::Grid>(c_.network.ports[i].map) && table.starts_with(map_of(ports_[i].name));
       if (is_its_own && (!best || ports_[i].name.size() > ports_[*best].name.size())) best = i;
     }
     return best;
@@ -156,19 +161,28 @@ class AxesVerification {
   void recompute_grid(const std::string& port, const axes::Grid& grid, const std::vector<HeaderConstant>& tables) {
     const auto values_of = [&](const std::string& name) {
       for (const HeaderConstant& table : tables)
-        if (table.name == port + "_map_" + name) return table.values;
-      diagnostics_.report<DiagnosticCode::constant_missing>({}, port + "_map_" + name);
+        if (table.name == map_of(port) + name) return table.values;
+      diagnostics_.report<DiagnosticCode::constant_missing>({}, map_of(port) + name);
       return std::vector<double>();
     };
     const auto expect = [&](const std::string& name, std::size_t place, double value, const Reference& due,
                             double within) {
       if (abs(Reference(value) - due) > Reference(within))
         diagnostics_.report<DiagnosticCode::constant_wrong>(
-            {}, fmt::format("place {} of '{}_map_{}'", place + 1, port, name), value, due.str(20));
+            {}, fmt::format("place {} of '{}{}'", place + 1, map_of(port), name), value, due.str(20));
+    };
+    // What only the depth needs is not there where a port has no springs.
+    const auto is_read = [&](const std::string& name) {
+      const std::set<CoefficientId> read = constants_read(c_.law);
+      return std::any_of(read.begin(), read.end(),
+                         [&](CoefficientId id) { return c_.law.coefficients[id].name == map_of(port) + name; });
     };
     std::array<std::vector<double>, 16> cells;
     for (std::size_t k = 0; k < cells.size(); ++k) {
-      cells[k] = values_of(fmt::format("s{}_t{}", k / 4, k % 4));
+      const std::string name = fmt::format("s{}_t{}", k / 4, k % 4);
+      if (is_read(name)) cells[k] = values_of(name);
+      else
+        for (const axes::BicubicCell& cell : grid.cell) cells[k].push_back(cell.coefficient[k]);
       if (cells[k].size() != grid.cell.size()) return;
     }
     const double rounding = header_.scalar == ScalarType::float64 ? 1e-15 : 1e-6;

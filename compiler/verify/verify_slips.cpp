@@ -5,7 +5,6 @@
 
 #include "certify/slip_motor.hpp"
 #include "verify/law_constants.hpp"
-#include "verify/port_constants.hpp"
 #include "verify/realised_network.hpp"
 #include "verify/recompiled.hpp"
 #include "verify/reference_gain.hpp"
@@ -32,20 +31,22 @@ void SlipVerification::recompute_constants() {
 }
 
 void SlipVerification::look_at(const HeaderConstant& constant) {
-  if (constant.name == literals_in_code) return look_at_literals(constant, compiled_.law, diagnostics_);
+  if (constant.name == literals_in_code) return look_at_literals(constant, compiled_.law, {}, diagnostics_);
   if (const auto table = table_called(constant.name)) return compare(constant, *table, header_.scalar, diagnostics_);
+  const auto is_of_map = [&](const Coefficient& c) {
+    return c.name == constant.name && c.role == ConstantRole::map && c.is_table();
+  };
+  const Table<Coefficient>& all = compiled_.law.coefficients;
+  if (std::any_of(all.begin(), all.end(), is_of_map)) return;  // recomputed with the map
   const auto known = constant_called(constant.name, constant.values.size(), compiled_.law);
   if (!known) return compare_with_facts(constant, compiled_, facts_, diagnostics_);
+  if (is_chosen(known->coefficient->role)) return compare_with_compiled(constant, *known, diagnostics_);
   for (std::size_t i = 0; i < constant.values.size(); ++i) look_at(constant, i, *known->coefficient, known->first + i);
 }
 
 void SlipVerification::look_at(const HeaderConstant& written, std::size_t number, const Coefficient& constant,
                                std::size_t place) {
   const double value = written.values[number];
-  if (is_chosen(constant.role)) {
-    if (value != constant.values[place]) diagnostics_.report<DiagnosticCode::unknown_constant>({}, written.written);
-    return;
-  }
   std::optional<Reference> exact = equations_.value(constant, place);
   if (!exact) {
     diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, shown(written, number), value);

@@ -24,14 +24,14 @@ void TunableVerification::recompute_constants() {
 }
 
 void TunableVerification::look_at(const HeaderConstant& constant) {
-  if (constant.name == literals_in_code) return look_at_literals(constant);
+  if (constant.name == literals_in_code)
+    return look_at_literals(constant, compiled_.law, equations_.fixed_yields(), diagnostics_);
   if (constant.name == "tunables") return compare(constant, ranges(), header_.scalar, diagnostics_);
   const auto known = constant_called(constant.name, constant.values.size(), compiled_.law);
   if (!known) return compare_with_facts(constant, compiled_, facts_, diagnostics_);
   const Coefficient& coefficient = *known->coefficient;
   if (is_chosen(coefficient.role)) {
-    if (constant.values != coefficient.values)
-      diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.written);
+    compare_with_compiled(constant, *known, diagnostics_);
   } else if (const auto exact = equations_.value(coefficient)) {
     compare(constant, {*exact}, header_.scalar, diagnostics_);
   } else {
@@ -45,31 +45,6 @@ std::vector<Reference> TunableVerification::ranges() const {
   for (const Parameter* parameter : tunables_.parameters)
     all.insert(all.end(), {parameter->value, parameter->min, parameter->max});
   return all;
-}
-
-// What states and tuned numbers of a new law begin with, to either side where they are yield forces, and the yield
-// forces that no parameter changes. A contact among slips holds whatever pushes.
-void TunableVerification::look_at_literals(const HeaderConstant& literals) {
-  const std::vector<Reference> yields = equations_.fixed_yields();
-  const auto is_yield = [&](double value) {
-    return std::any_of(yields.begin(), yields.end(),
-                       [&](const Reference& yield) { return is_correctly_rounded(value, yield, header_.scalar); });
-  };
-  const auto is_of_contact = [&](double value) {
-    const auto& networks = compiled_.law.networks;
-    return std::any_of(networks.begin(), networks.end(), [&](const SlipNetwork& network) {
-      return !network.links.empty() && network.links.back().lowest == 0 && network.links.back().highest == value;
-    });
-  };
-  for (std::size_t i = 0; i < literals.values.size(); ++i) {
-    const double value = literals.values[i];
-    const auto& variables = compiled_.law.variables;
-    const bool is_begun_with = std::any_of(variables.begin(), variables.end(), [&](const Variable& variable) {
-      return variable.is_kept() && (variable.rest_value == value || variable.rest_value == -value);
-    });
-    if (!is_begun_with && !is_yield(value) && !is_yield(-value) && !is_of_contact(value))
-      diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, shown(literals, i), value);
-  }
 }
 
 // What is needed may be what is left of the brake's damping, whose rounding, and that of b∞ − b, it then has, beside

@@ -19,7 +19,6 @@ class TunableVerification {
 
  private:
   void look_at(const HeaderConstant& constant);
-  void look_at_literals(const HeaderConstant& literals);
   std::vector<Reference> ranges() const;
   bool covers(double stated, const ReferenceBox& box, const Reference& share) const;
 

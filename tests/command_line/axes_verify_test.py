@@ -55,6 +55,14 @@ class AxesVerify(CommandTest):
         self.write("read.json", certificate)
         return self.dashpot("verify", "read.json", "read.hpp", *options, status=status)
 
+    def test_grids_of_ports(self):
+        """Fails if a sound header is refused for the tables of a grid: of a port whose name ends in '_', or without springs."""
+        grid = {"x": [-0.02, 0, 0.02], "y": [0.09, 0.11], "values": [[0, 0.001, 0], [0.019, 0.021, 0.019]]}
+        for name, network in (("a_", {"spring": 300}), ("a", {"damper": 1})):
+            port = {"name": name, "map": {"grid": grid}, "network": network}
+            self.write("grid.json", json.dumps({"dashpot": 1, "axes": 2, "name": "grid", "ports": [port]}))
+            self.verified(*self.compiled("grid.json"), "--allow-uncertified")
+
     # If this fails, ports that relax cannot be certified without a contact, or `faithful` takes another b than b∞.
     def test_faithful_ports_that_relax_are_certified(self):
         relaxing = {"parallel": [{"spring": "60 N/m"}, {"damper": "0.4 N s/m"}, {"series": [{"spring": "40 N/m"}, {"damper": "2 N s/m"}]}]}

@@ -114,7 +114,8 @@ TEST(VerifiedHeaders, OfLawsThatWereRefused) {
 }
 
 // If this failed, sound headers would be refused: an element called as `verify` calls numbers without a name, a port
-// whose name begins one of the law's own constants, two ports whose constants would be called alike.
+// whose name begins one of the law's own constants, two ports whose constants or tables would be called alike, an
+// element called as the constant by which a limited slew is known.
 TEST(VerifiedHeaders, OfNamesThatWereMistaken) {
   const std::string networks[] = {
       R"("parameters": {"K": {"value": 12, "tunable": true, "min": 0, "max": 100}},
@@ -126,11 +127,18 @@ TEST(VerifiedHeaders, OfNamesThatWereMistaken) {
       R"("ports": [{"name": "a", "network": {"series": [{"slip": 1, "name": "b_S"},
          {"parallel": [{"spring": 4}, {"series": [{"spring": 4}, {"damper": 4}]}]}]}},
          {"name": "a_b", "network": {"series": [{"slip": 2, "name": "S"},
-         {"parallel": [{"spring": 4}, {"series": [{"spring": 7}, {"damper": 4}]}]}]}}])"};
+         {"parallel": [{"spring": 4}, {"series": [{"spring": 7}, {"damper": 4}]}]}]}}])",
+      R"("ports": [{"name": "p_network", "elements": [{"spring": 30, "nodes": ["tool", "a"]},
+         {"slip": 0.9, "nodes": ["a", "b"], "name": "between"}, {"spring": 60, "nodes": ["b", "ground"]},
+         {"spring": 40, "nodes": ["tool", "b"]}, {"slip": 0.7, "nodes": ["a", "ground"]}]},
+         {"name": "p", "elements": [{"spring": 50, "nodes": ["tool", "a"]},
+         {"slip": 0.5, "nodes": ["a", "b"], "name": "network"}, {"spring": 52, "nodes": ["b", "ground"]},
+         {"spring": 71, "nodes": ["tool", "b"]}, {"slip": 0.4, "nodes": ["a", "ground"]}]}])",
+      R"("network": {"series": [{"spring": 100}, {"damper": 5, "name": "motor_step"}]})"};
   int written = 0;
   for (const std::string& network : networks)
     EXPECT_EQ(faults(with_elements(network), std::nullopt, Choices(), written), "") << network;
-  EXPECT_EQ(written, 4);
+  EXPECT_EQ(written, 6);
 }
 
 // Fails if the part of a regime's dampers that a weak brake can take is refused, in a tree or in none.

@@ -14,6 +14,7 @@
 #include "law/cost.hpp"
 #include "law/walk.hpp"
 #include "law/evaluate.hpp"
+#include "source/counted.hpp"
 #include "source/wrapped_text.hpp"
 
 namespace dashpot::compiler {
@@ -162,9 +163,9 @@ std::string notes_text(const Compilation& c) {
 std::string cost_text(const Compilation& c) {
   const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
   std::string text = fmt::format(
-      "cost                  output {} additions and {} multiplications, update {} and {} with {} guard{}, {} states\n",
-      output.additions, output.multiplications, update.additions, update.multiplications, update.guards,
-      update.guards == 1 ? "" : "s", output.states);
+      "cost                  output {} and {}, update {} and {} with {}, {}\n", counted(output.additions, "addition"),
+      counted(output.multiplications, "multiplication"), update.additions, update.multiplications,
+      counted(update.guards, "guard"), counted(output.states, "state"));
   if (output.coupled > 0)
     text += fmt::format("coupled slips         at most {} additions, multiplications and divisions in output\n",
                         output.coupled);
@@ -181,11 +182,10 @@ std::string tunable_text(const UpdateLaw& law) {
   text += fmt::format("damping follows       {}\n", tables.brake.text);
   for (const std::string& element : tables.mesh_elements) elements += (elements.empty() ? "" : ", ") + element;
   if (!elements.empty()) text += fmt::format("backward Euler        {}\n", elements);
-  return text +
-         fmt::format(
-             "cost at most          output {}, update {}, set {} additions, multiplications and divisions, {} states\n",
-             operations_of(cost_of(law, law.output)), operations_of(cost_of(law, law.update)),
-             operations_of(cost_of(law, set_program(law))), cost_of(law, law.output).states);
+  return text + fmt::format(
+                    "cost at most          output {}, update {}, set {} additions, multiplications and divisions, {}\n",
+                    operations_of(cost_of(law, law.output)), operations_of(cost_of(law, law.update)),
+                    operations_of(cost_of(law, set_program(law))), counted(cost_of(law, law.output).states, "state"));
 }
 
 // What follows a label begins in the same column on every line.

@@ -11,6 +11,7 @@
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
 #include "report/plot.hpp"
+#include "source/counted.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -81,7 +82,7 @@ class FitPage {
 
   std::string title() const {
     if (!fit_.choices.title.empty()) return fit_.choices.title;
-    return fmt::format("Fitted to {} recording{}", fit_.files.size(), fit_.files.size() == 1 ? "" : "s");
+    return "Fitted to " + counted(fit_.files.size(), "recording");
   }
 
   std::string error(double rms) const { return error_text(rms, fit_, problem_); }

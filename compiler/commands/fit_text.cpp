@@ -6,6 +6,7 @@
 #include "commands/fit_output.hpp"
 #include "fit/network_text.hpp"
 #include "network/port_units.hpp"
+#include "source/counted.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -22,9 +23,8 @@ class FitText {
         units_(port_units(fit.choices.port_motion)) {}
 
   std::string run() {
-    std::string text = fmt::format("{}: {} from {} of {} recording{}\n", fit_.network_name,
-                                   fit_.parameters == 1 ? "1 parameter" : fmt::format("{} parameters", fit_.parameters),
-                                   rows(), fit_.files.size(), fit_.files.size() == 1 ? "" : "s");
+    std::string text = fmt::format("{}: {} from {} of {}\n", fit_.network_name, counted(fit_.parameters, "parameter"),
+                                   rows(), counted(fit_.files.size(), "recording"));
     text += fmt::format("rms {}, R² {:.5f}; no linear network leaves less than {}", error(fit_.rms), fit_.r_squared,
                         error(fit_.floor_rms));
     if (fit_.noise && fit_.choices.weighting == Weighting::uniform)

@@ -10,6 +10,7 @@
 #include "fit/table_shape.hpp"
 #include "network/name_rules.hpp"
 #include "network/rate_limits.hpp"
+#include "source/counted.hpp"
 #include "source/excerpt.hpp"
 
 namespace dashpot::compiler {
@@ -323,7 +324,8 @@ class CsvTable {
 
   bool has_fields(const std::vector<Cell>& row, std::size_t count) {
     if (row.size() != count)
-      fail<DiagnosticCode::csv_field_count>({&file_, row.front().span.begin, row.back().span.end}, row.size(), count);
+      fail<DiagnosticCode::csv_field_count>({&file_, row.front().span.begin, row.back().span.end},
+                                            counted(row.size(), "field"), count);
     return row.size() == count;
   }
 

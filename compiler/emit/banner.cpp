@@ -10,6 +10,7 @@
 #include "decompose/slip_laws.hpp"
 #include "law/cost.hpp"
 #include "law/walk.hpp"
+#include "source/counted.hpp"
 #include "source/wrapped_text.hpp"
 
 namespace dashpot::compiler {
@@ -40,8 +41,8 @@ std::string damping_unit(const Network& network) {
 }
 
 std::string cost_line(const char* phase, const Cost& cost) {
-  return fmt::format("{} {} additions, {} multiplications, {} guards against subnormal numbers", phase, cost.additions,
-                     cost.multiplications, cost.guards);
+  return fmt::format("{} {}, {}, {} against subnormal numbers", phase, counted(cost.additions, "addition"),
+                     counted(cost.multiplications, "multiplication"), counted(cost.guards, "guard"));
 }
 
 // U+202A to U+202E and U+2066 to U+2069 turn the direction of what follows: code would not read as it is compiled.
@@ -96,7 +97,7 @@ void describe_cost(const UpdateLaw& law, std::vector<std::string>& facts) {
     facts.push_back(
         fmt::format("  and at most {} additions, multiplications and divisions for the coupled slips", output.coupled));
   facts.push_back(cost_line("cost of update():", update) +
-                  fmt::format("; {} numbers are kept between samples", output.states));
+                  fmt::format("; {} kept between samples", counted(output.states, "number")));
 }
 
 // What may change, what follows it, and what that costs.

@@ -15,6 +15,7 @@
 #include "law/cost.hpp"
 #include "lower/term_writer.hpp"
 #include "network/port_units.hpp"
+#include "source/counted.hpp"
 #include "source/wrapped_text.hpp"
 
 namespace dashpot::compiler {
@@ -45,8 +46,9 @@ std::string share_line(const axes::ShareMap& share) {
 }
 
 std::string joint_cost_line(const char* phase, const Cost& cost) {
-  return fmt::format("cost of {}: {} additions, {} multiplications, {} selections, {} guards against subnormal numbers",
-                     phase, cost.additions, cost.multiplications, cost.selections, cost.guards);
+  return fmt::format("cost of {}: {}, {}, {}, {} against subnormal numbers", phase, counted(cost.additions, "addition"),
+                     counted(cost.multiplications, "multiplication"), counted(cost.selections, "selection"),
+                     counted(cost.guards, "guard"));
 }
 
 std::vector<std::string> banner(const AxesCompilation& c) {

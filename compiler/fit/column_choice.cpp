@@ -9,6 +9,7 @@
 
 #include "network/decimal.hpp"
 #include "network/unit.hpp"
+#include "source/counted.hpp"
 #include "source/excerpt.hpp"
 #include "source/nearest_name.hpp"
 
@@ -485,7 +486,8 @@ class Chooser {
     if (const std::optional<Answer> line = answer())
       diagnostics_.note<DiagnosticCode::recording_answer>({}, line->condition, line->command);
     else if (shape_.width < needed().size())
-      diagnostics_.note<DiagnosticCode::recording_too_few_columns>({}, shape_.width, words_of_needed());
+      diagnostics_.note<DiagnosticCode::recording_too_few_columns>({}, counted(shape_.width, "column"),
+                                                                   words_of_needed());
     else diagnostics_.note<DiagnosticCode::recording_columns_remedy>({}, words_of_columns(), words_of_needed());
     if (!shape_.metadata.empty())
       diagnostics_.note<DiagnosticCode::recording_metadata>(
@@ -525,7 +527,9 @@ class Chooser {
       const bool has_spare = columns_.size() >= needed().size();
       if (is_force_after_a_step(group, has_spare)) diagnostics_.note<DiagnosticCode::recording_force_after_step>({});
       else if (has_spare) note_answer();
-      else diagnostics_.note<DiagnosticCode::recording_too_few_columns>({}, columns_.size(), words_of_needed());
+      else
+        diagnostics_.note<DiagnosticCode::recording_too_few_columns>({}, counted(columns_.size(), "column"),
+                                                                     words_of_needed());
       return;
     }
   }

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "network/port_units.hpp"
+#include "source/counted.hpp"
 
 namespace dashpot::compiler::fitting {
 namespace {
@@ -144,9 +145,9 @@ std::string bare_network_text(const Fit& fit) {
 std::string network_text(const Fit& fit, const Problem& problem) {
   const std::size_t count = fit.files.size();
   std::string text = fmt::format("{{\n  \"dashpot\": 1,\n  \"name\": \"{}\",\n", fit.network_name);
-  text += fmt::format("  \"title\": {},\n", quoted(fit.choices.title.empty() ? fmt::format("Fitted to {} recording{}",
-                                                                                           count, count == 1 ? "" : "s")
-                                                                             : fit.choices.title));
+  text +=
+      fmt::format("  \"title\": {},\n",
+                  quoted(fit.choices.title.empty() ? "Fitted to " + counted(count, "recording") : fit.choices.title));
   text += fmt::format("  \"source\": {},\n", quoted(fit.choices.source));
   text +=
       fmt::format("  \"motion\": \"{}\",\n", fit.choices.port_motion == motion::rotation ? "rotation" : "translation");

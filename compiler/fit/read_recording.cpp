@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "source/counted.hpp"
 #include "source/excerpt.hpp"
 
 namespace dashpot::compiler::fitting {
@@ -233,7 +234,7 @@ class RecordingReader {
   void report_width(std::string_view line, std::size_t number, std::size_t count) {
     ++reported_;
     diagnostics_.report<DiagnosticCode::recording_field_count>(
-        place_of(lines_.path(), line, number, line, diagnostics_), count, shape_.width);
+        place_of(lines_.path(), line, number, line, diagnostics_), counted(count, "field"), shape_.width);
     diagnostics_.note<DiagnosticCode::recording_remove_row>({});
   }
 
@@ -288,7 +289,8 @@ class RecordingReader {
   void check_whole() {
     Recording& r = recording();
     if (r.time.size() < least_rows) {
-      diagnostics_.report<DiagnosticCode::recording_too_short>(line_of_row(0), r.time.size(), least_rows);
+      diagnostics_.report<DiagnosticCode::recording_too_short>(line_of_row(0), counted(r.time.size(), "row"),
+                                                               least_rows);
       diagnostics_.note<DiagnosticCode::recording_more_rows>({});
       return;
     }

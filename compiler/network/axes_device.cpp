@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "network/read_pair.hpp"
+#include "source/counted.hpp"
 #include "source/excerpt.hpp"
 #include "source/nearest_name.hpp"
 #include "syntax/object_reader.hpp"
@@ -141,7 +142,7 @@ class AxesDeviceBuilder {
   void read_brakes() {
     if (decl_.brakes.size() < 2 || decl_.brakes.size() > 4)
       diagnostics_.report<DiagnosticCode::brakes_count>(decl_.brakes.empty() ? decl_.opening : decl_.brakes_span,
-                                                        decl_.brakes.size());
+                                                        counted(decl_.brakes.size(), "brake"));
     for (const BrakeDecl& decl : decl_.brakes) {
       const auto along = decl.along ? read_direction("along", *decl.along, diagnostics_) : std::nullopt;
       if (has_errors() && device_.joints.empty()) return;  // errors of the loop, which have been reported

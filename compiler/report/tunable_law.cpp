@@ -5,6 +5,7 @@
 #include "report/equations.hpp"
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
+#include "source/counted.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -55,9 +56,9 @@ std::string tunable_law_html(const Compilation& c) {
             escaped(joined_names(tables.mesh_elements)) + ".";
   return html + fmt::format(
                     " Cost at most: {} operations before the command, {} after it, {} in <code>set()</code>; "
-                    "{} state{}.</p>\n",
+                    "{}.</p>\n",
                     operations_of(cost_of(c.law, c.law.output)), operations_of(cost_of(c.law, c.law.update)),
-                    operations_of(cost_of(c.law, set_program(c.law))), states, states == 1 ? "" : "s");
+                    operations_of(cost_of(c.law, set_program(c.law))), counted(states, "state"));
 }
 
 }  // namespace dashpot::compiler

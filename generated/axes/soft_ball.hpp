@@ -22,8 +22,8 @@
 //   added to the brakes' commands for it: 0.01398, 0.01398 N m s/rad, all that they can give; felt at the tip: up
 //   to 11.3 N s/m more
 // device: pantograph_2dof
-// cost of output(): 78 additions, 91 multiplications, 9 selections, 1 guards against subnormal numbers
-// cost of update(): 1 additions, 2 multiplications, 0 selections, 1 guards against subnormal numbers
+// cost of output(): 78 additions, 91 multiplications, 9 selections, 1 guard against subnormal numbers
+// cost of update(): 1 addition, 2 multiplications, 0 selections, 1 guard against subnormal numbers
 // words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has
 //   gone into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what
 //   gives the hand no more energy than it got; certified, what is proved to be passive

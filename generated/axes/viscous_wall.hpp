@@ -21,7 +21,7 @@
 //   added to the brakes' commands for it: 0.01398, 0.01398 N m s/rad, all that they can give; felt at the tip: up
 //   to 11.3 N s/m more
 // device: pantograph_2dof
-// cost of output(): 74 additions, 90 multiplications, 9 selections, 1 guards against subnormal numbers
+// cost of output(): 74 additions, 90 multiplications, 9 selections, 1 guard against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
 // words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has
 //   gone into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what

@@ -18,8 +18,8 @@
 //   rounding adds at most 1.1e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
-// cost of output(): 6 additions, 4 multiplications, 1 guards against subnormal numbers
-// cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 3 numbers are kept between
+// cost of output(): 6 additions, 4 multiplications, 1 guard against subnormal numbers
+// cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 3 numbers kept between
 //   samples
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //

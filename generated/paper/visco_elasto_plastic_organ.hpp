@@ -20,8 +20,8 @@
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // cost of output(): 13 additions, 12 multiplications, 0 guards against subnormal numbers
-// cost of update(): 11 additions, 11 multiplications, 3 guards against subnormal numbers; 8 numbers are kept
-//   between samples
+// cost of update(): 11 additions, 11 multiplications, 3 guards against subnormal numbers; 8 numbers kept between
+//   samples
 // rounding: the force of a mode is off by at most 1.6e-14 of its peak
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
 //   mode is a spring behind a damper, whose force dies away

@@ -18,8 +18,8 @@
 //   sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
-// cost of output(): 0 additions, 1 multiplications, 0 guards against subnormal numbers
-// cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 2 numbers are kept between
+// cost of output(): 0 additions, 1 multiplication, 0 guards against subnormal numbers
+// cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 2 numbers kept between
 //   samples
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //

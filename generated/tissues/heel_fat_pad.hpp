@@ -21,8 +21,8 @@
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
-// cost of update(): 17 additions, 6 multiplications, 6 guards against subnormal numbers; 10 numbers are kept
-//   between samples
+// cost of update(): 17 additions, 6 multiplications, 6 guards against subnormal numbers; 10 numbers kept between
+//   samples
 // rounding: in compensated form the force of a mode is off by at most 6.7e-16 of its peak
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
 //   mode is a spring behind a damper, whose force dies away

@@ -26,9 +26,9 @@
 //   rounding adds at most 9.5e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
-// cost of output(): 7 additions, 3 multiplications, 1 guards against subnormal numbers
+// cost of output(): 7 additions, 3 multiplications, 1 guard against subnormal numbers
 //   and at most 61 additions, multiplications and divisions for the coupled slips
-// cost of update(): 2 additions, 3 multiplications, 2 guards against subnormal numbers; 7 numbers are kept between
+// cost of update(): 2 additions, 3 multiplications, 2 guards against subnormal numbers; 7 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 1.6e-15 of its peak
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A

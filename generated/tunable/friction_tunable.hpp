@@ -26,7 +26,7 @@
 //   from output() of the same sample
 //   b [N·s/m] follows damper_3
 // cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
-// cost of update(): 1 additions, 1 multiplications, 1 guards against subnormal numbers; 9 numbers are kept between
+// cost of update(): 1 addition, 1 multiplication, 1 guard against subnormal numbers; 9 numbers kept between
 //   samples
 // cost of set(): 7 operations for the constants, 53 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive

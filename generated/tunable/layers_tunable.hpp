@@ -26,8 +26,8 @@
 //   b [N·s/m] follows drag
 // cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
 //   and at most 11370 additions, multiplications and divisions for the coupled slips
-// cost of update(): 8 additions, 8 multiplications, 4 guards against subnormal numbers; 20 numbers are kept
-//   between samples
+// cost of update(): 8 additions, 8 multiplications, 4 guards against subnormal numbers; 20 numbers kept between
+//   samples
 // cost of set(): 77 operations for the constants, 60 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //

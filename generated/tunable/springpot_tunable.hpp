@@ -26,8 +26,8 @@
 //   from output() of the same sample
 //   b [N·s/m] follows muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
-// cost of update(): 27 additions, 30 multiplications, 6 guards against subnormal numbers; 13 numbers are kept
-//   between samples
+// cost of update(): 27 additions, 30 multiplications, 6 guards against subnormal numbers; 13 numbers kept between
+//   samples
 // cost of set(): 355 operations for the constants, 338 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //

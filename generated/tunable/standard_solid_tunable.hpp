@@ -23,8 +23,8 @@
 //   b [N·s/m] follows B1
 //   by backward Euler, since their relaxations mix with a tunable or at several slips: spring_1, B1, K2
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
-// cost of update(): 14 additions, 9 multiplications, 3 guards against subnormal numbers; 10 numbers are kept
-//   between samples
+// cost of update(): 14 additions, 9 multiplications, 3 guards against subnormal numbers; 10 numbers kept between
+//   samples
 // cost of set(): 14 operations for the constants, 67 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //

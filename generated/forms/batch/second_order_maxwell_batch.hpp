@@ -18,7 +18,7 @@
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
-// cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers are kept between
+// cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 2e-13 of its peak
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A

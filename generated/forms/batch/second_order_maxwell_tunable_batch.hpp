@@ -24,8 +24,8 @@
 //   from output() of the same sample
 //   b [N·s/m] follows B1 + damper_3
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
-// cost of update(): 15 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers are kept
-//   between samples
+// cost of update(): 15 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers kept between
+//   samples
 // cost of set(): 132 operations for the constants, 107 for the forces of springs and their energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //

@@ -19,8 +19,8 @@
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
 //   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
-// cost of update(): 39 additions, 40 multiplications, 20 guards against subnormal numbers; 24 numbers are kept
-//   between samples
+// cost of update(): 39 additions, 40 multiplications, 20 guards against subnormal numbers; 24 numbers kept between
+//   samples
 // loops: laid out for registers of 64 bytes, -mavx512f; sums in 32 parts, the same bits on every machine
 // rounding: the force of a mode is off by at most 5.6e-13 of its peak
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A

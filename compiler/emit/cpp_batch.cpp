@@ -25,7 +25,7 @@ class BatchPrinter {
     std::vector<Statement> update = law_.keep;
     update.insert(update.end(), law_.update.begin(), law_.update.end());
     update = needed_of(update);
-    batch.output = lines_of(output_read_by(update));
+    batch.output = lines_of(output_for(update));
     batch.update = lines_of(update);
     batch.energy = lines_of(law_.energy);
     batch.loads = loads();
@@ -92,6 +92,21 @@ class BatchPrinter {
     std::set<VariableId> wanted = kept_;
     wanted.insert(law_.started_at);
     for (const PortStart& start : law_.starts) wanted.insert(start.value);
+    return needed_for(std::move(wanted), program);
+  }
+
+  // Of the output what the command, `update` and the energy follow from. What only the single class remembers is left
+  // out.
+  std::vector<Statement> output_for(const std::vector<Statement>& update) const {
+    std::set<VariableId> wanted = kept_;
+    for (const VariableId given : {law_.force, law_.brake, law_.last_brake, law_.checked()}) wanted.insert(given);
+    for (const auto* reader : {&update, &law_.energy})
+      for (const Statement& statement : *reader)
+        each_read(law_, statement, [&](VariableId read) { wanted.insert(read); });
+    return needed_for(std::move(wanted), law_.output);
+  }
+
+  std::vector<Statement> needed_for(std::set<VariableId> wanted, const std::vector<Statement>& program) const {
     std::vector<Statement> needed;
     for (auto statement = program.rbegin(); statement != program.rend(); ++statement) {
       bool is_needed = false;
@@ -101,23 +116,6 @@ class BatchPrinter {
       needed.insert(needed.begin(), *statement);
     }
     return needed;
-  }
-
-  // Without what is remembered for those who ask the single class, and what that alone follows from.
-  std::vector<Statement> output_read_by(const std::vector<Statement>& update) const {
-    std::set<VariableId> read = kept_;
-    for (const VariableId given : {law_.force, law_.brake, law_.last_brake, law_.checked()}) read.insert(given);
-    const auto add_reads = [&](const Statement& statement) {
-      each_read(law_, statement, [&](VariableId found) { read.insert(found); });
-    };
-    for (const auto* other : {&update, &law_.energy})
-      for (const Statement& statement : *other) add_reads(statement);
-    std::vector<Statement> output = law_.output;
-    for (auto statement = output.rbegin(); statement != output.rend(); ++statement)
-      if (!statement->assigns() || read.count(statement->target) != 0) add_reads(*statement);
-    std::erase_if(output,
-                  [&](const Statement& statement) { return statement.assigns() && read.count(statement.target) == 0; });
-    return output;
   }
 
   std::set<VariableId> assigned_by(std::initializer_list<const std::vector<Statement>*> programs) const {

@@ -98,7 +98,7 @@ std::string push_text(const Compilation& c, const PortUnits& units) {
   if (!(depth > 0) || !(rate > 0) || !(samples <= most_samples)) return "";
   Choices choices;
   choices.rate = c.rate;
-  Diagnostics of_whole;  // the network has been compiled for the device, and what it is told of then has been told
+  Diagnostics of_whole;  // its warnings were given when it was compiled for the device
   StageTimes unseen;
   const std::optional<Compilation> whole = compile(c.network, choices, std::nullopt, of_whole, unseen);
   if (!whole) return "";

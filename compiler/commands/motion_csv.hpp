@@ -58,8 +58,8 @@ std::optional<JointMotion> parse_joint_motion(const SourceFile& file, Diagnostic
 enum class MotionOf { port, joints };
 
 // Of what a table that begins so is a motion: its first line names time and position, and no force, stress or anything
-// else that answered them; or `simulate` and `run` have written it, which read it again. Empty where it is none. What
-// is wrong with it is for who reads it then to report.
+// else that answered them; or `simulate` and `run` have written it, which read it again. Empty if it is
+// none. Faults are left to the function that then reads it.
 std::optional<MotionOf> motion_in(const SourceFile& beginning);
 
 // Refuses a motion in degrees for a tool that moves in metres, and the other way round.

@@ -102,7 +102,7 @@ std::optional<Compilation> compiled_finely(const Compilation& c, const Choices& 
   fine.scheme = Scheme::exact;
   fine.scalar = ScalarType::float64;
   fine.rate = std::min(c.rate * finer_steps, highest_rate);
-  Diagnostics of_rates;  // what a finer rate is told of is not for the device
+  Diagnostics of_rates;  // warnings about the finer rate are of no use to the caller
   StageTimes unseen;
   std::optional<Compilation> compiled = compile(c.network, fine, std::nullopt, of_rates, unseen);
   if (!compiled) diagnostics.take_errors(of_rates);

@@ -24,7 +24,7 @@ bool is_of_many_points(const Network& network, const std::string& code) {
 // many.
 std::vector<std::string> emitted(const Compilation& compiled, bool of_many_points) {
   std::vector<std::string> texts;
-  Diagnostics of_emission;  // there may be no header in constant time; then the other has to be it
+  Diagnostics of_emission;  // constant time may be refused; then only the plain header is compared
   for (const bool constant_time : {false, true}) {
     EmissionOptions options;
     options.constant_time = constant_time;

@@ -44,8 +44,8 @@ std::optional<Quantity> read_expression(const ValueDecl& decl, const NameScope& 
 bool is_stated(const ValueDecl& decl, const NameScope& scope);
 std::optional<Quantity> read_stated(const ValueDecl& decl, const NameScope& scope, Diagnostics& diagnostics);
 
-// The same without names, of a value that is looked at to see what it is. Empty where it is not to be read: that is for
-// who reads it then to report.
+// The same without names, to see what kind of value it is: empty if it cannot be read. Faults are left to the function
+// that then reads it.
 std::optional<Quantity> quantity_in(const ValueDecl& decl);
 
 }  // namespace dashpot::compiler

@@ -42,7 +42,8 @@ std::string_view kind_name(JsonValue::Kind kind);
 // others are reported.
 std::optional<JsonValue> parse_json(const SourceFile& file, Diagnostics& diagnostics);
 
-// The same of a file that is looked into to see what it is. What is wrong with it is for who reads it then to report.
+// The same, to see what kind of file it is: empty if it is not JSON. Faults are left to the function that then reads
+// it.
 std::optional<JsonValue> json_in(const SourceFile& file);
 
 }  // namespace dashpot::compiler

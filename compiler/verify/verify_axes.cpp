@@ -172,8 +172,8 @@ class AxesVerification {
             {}, fmt::format("place {} of '{}{}'", place + 1, map_of(port), name), value, due.str(20));
     };
     // What only the depth needs is not there where a port has no springs.
+    const std::set<CoefficientId> read = constants_read(c_.law);
     const auto is_read = [&](const std::string& name) {
-      const std::set<CoefficientId> read = constants_read(c_.law);
       return std::any_of(read.begin(), read.end(),
                          [&](CoefficientId id) { return c_.law.coefficients[id].name == map_of(port) + name; });
     };

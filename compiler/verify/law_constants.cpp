@@ -15,6 +15,12 @@ std::optional<LawConstant> constant_called(const std::string& name, std::size_t 
   return std::nullopt;
 }
 
+bool is_table_of_map(const std::string& name, const UpdateLaw& law) {
+  return std::any_of(law.coefficients.begin(), law.coefficients.end(), [&](const Coefficient& c) {
+    return c.name == name && c.role == ConstantRole::map && c.is_table();
+  });
+}
+
 bool is_chosen(ConstantRole role) {
   switch (role) {
     case ConstantRole::none:

@@ -22,6 +22,9 @@ struct LawConstant {
 // scalars. Empty if the law has no such constant, or not as many values.
 std::optional<LawConstant> constant_called(const std::string& name, std::size_t values, const UpdateLaw& law);
 
+// Whether it is one of the tables of a static curve's map, which are recomputed with the map.
+bool is_table_of_map(const std::string& name, const UpdateLaw& law);
+
 // Whether it is chosen, or of device or map, and no function of the network alone.
 bool is_chosen(ConstantRole role);
 

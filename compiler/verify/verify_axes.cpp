@@ -98,14 +98,9 @@ class AxesVerification {
     verify_gate(*c_.certificate.gate, c_.device, header_, diagnostics_);
     if (diagnostics_.error_count() > errors_before) return;
     for (const HeaderConstant& constant : gate_) {
-      const auto& all = c_.law.coefficients;
-      const auto due =
-          std::find_if(all.begin(), all.end(), [&](const Coefficient& c) { return c.name == constant.name; });
-      if (due == all.end() || due->values.size() != 1 || constant.values.size() != 1)
-        compare_with_written(constant, c_.law, diagnostics_);
-      else if (due->values != constant.values)
-        diagnostics_.report<DiagnosticCode::constant_wrong>({}, shown(constant, 0), constant.values.front(),
-                                                            fmt::format("{:.17g}", due->values.front()));
+      if (const auto known = constant_called(constant.name, constant.values.size(), c_.law))
+        compare_with_compiled(constant, *known, diagnostics_);
+      else compare_with_written(constant, c_.law, diagnostics_);
     }
   }
 

@@ -174,8 +174,8 @@ namespace {
 void look_at_sum(const HeaderConstant& constant, const Compilation& compiled, const LawFacts& facts,
                  Diagnostics& diagnostics) {
   if (constant.name == literals_in_code) look_at_literals(constant, compiled.law, {}, diagnostics);
-  else if (constant_called(constant.name, constant.values.size(), compiled.law))
-    compare_with_written(constant, compiled.law, diagnostics);
+  else if (const auto known = constant_called(constant.name, constant.values.size(), compiled.law))
+    compare_with_compiled(constant, *known, diagnostics);
   else compare_with_facts(constant, compiled, facts, diagnostics);
 }
 

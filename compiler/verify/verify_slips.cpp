@@ -33,11 +33,7 @@ void SlipVerification::recompute_constants() {
 void SlipVerification::look_at(const HeaderConstant& constant) {
   if (constant.name == literals_in_code) return look_at_literals(constant, compiled_.law, {}, diagnostics_);
   if (const auto table = table_called(constant.name)) return compare(constant, *table, header_.scalar, diagnostics_);
-  const auto is_of_map = [&](const Coefficient& c) {
-    return c.name == constant.name && c.role == ConstantRole::map && c.is_table();
-  };
-  const Table<Coefficient>& all = compiled_.law.coefficients;
-  if (std::any_of(all.begin(), all.end(), is_of_map)) return;  // recomputed with the map
+  if (is_table_of_map(constant.name, compiled_.law)) return;
   const auto known = constant_called(constant.name, constant.values.size(), compiled_.law);
   if (!known) return compare_with_facts(constant, compiled_, facts_, diagnostics_);
   if (is_chosen(known->coefficient->role)) return compare_with_compiled(constant, *known, diagnostics_);

@@ -26,6 +26,7 @@ void TunableVerification::recompute_constants() {
 void TunableVerification::look_at(const HeaderConstant& constant) {
   if (constant.name == literals_in_code)
     return look_at_literals(constant, compiled_.law, equations_.fixed_yields(), diagnostics_);
+  if (is_table_of_map(constant.name, compiled_.law)) return;
   if (constant.name == "tunables") return compare(constant, ranges(), header_.scalar, diagnostics_);
   const auto known = constant_called(constant.name, constant.values.size(), compiled_.law);
   if (!known) return compare_with_facts(constant, compiled_, facts_, diagnostics_);

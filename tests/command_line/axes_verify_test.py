@@ -56,7 +56,8 @@ class AxesVerify(CommandTest):
         return self.dashpot("verify", "read.json", "read.hpp", *options, status=status)
 
     def test_grids_of_ports(self):
-        """Fails if the tables of a grid are not found, of a port whose name ends in '_', or are missed that are not written."""
+        """Fails if the tables of a grid are not found, of a port whose name ends in '_', or if one that no code reads
+        is asked for."""
         grid = {"x": [-0.02, 0, 0.02], "y": [0.09, 0.11], "values": [[0, 0.001, 0], [0.019, 0.021, 0.019]]}
         for name, network in (("a_", {"spring": 300}), ("a", {"damper": 1})):
             port = {"name": name, "map": {"grid": grid}, "network": network}

@@ -467,9 +467,10 @@ class Verify(CommandTest):
         ports = [{"name": "left", "network": {"parallel": [{"spring": 5}, {"series": [{"slip": 2}, {"spring": 11}]}]}},
                  {"name": "right", "network": {"spring": 7}}]
         self.write("two.json", json.dumps({"name": "two", "dashpot": 1, "ports": ports}))
-        for law, pattern, told in (("two.json", r"(left_static_stiffness = )[^;]+", "'left_static_stiffness'"),
-                                   ("two.json", r"(right_static_stiffness = )[^;]+", "'right_static_stiffness'"),
-                                   ("coupled.json", r"(slip_part::slip, [^}]*, )[^,}]+", r"place \d+ of 'coupled_\w+'")):
+        for law, pattern, told in (
+                ("two.json", r"(left_static_stiffness = )[^;]+", "'left_static_stiffness'"),
+                ("two.json", r"(right_static_stiffness = )[^;]+", "'right_static_stiffness'"),
+                ("coupled.json", r"(slip_part::slip, [^}]*, )[^,}]+", r"place \d+ of 'coupled_\w+'")):
             header, certificate = self.emitted([law], law.removesuffix(".json"))
             changed, count = re.subn(pattern, r"\g<1>0.125", header, count=1)
             self.assertEqual(count, 1, law)

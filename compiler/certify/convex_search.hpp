@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace dashpot::compiler {
 
@@ -14,19 +15,43 @@ struct LeastPlace {
   double value;
 };
 
+// A level that is of interest, and the function's values at both ends.
+struct OfInterest {
+  double level, at_low, at_high;
+};
+
+// What a convex function is at least between low and high, by the chords through four of its places.
+inline double least_by_chords(double low, double at_low, double left, double at_left, double right, double at_right,
+                              double high, double at_high) {
+  const double middle = (at_right - at_left) / (right - left);
+  if (at_left < at_right)
+    return std::min(at_left - middle * (left - low),
+                    at_left + std::min((at_left - at_low) / (left - low), 0.0) * (right - left));
+  return std::min(at_right + middle * (high - right),
+                  at_right - std::max((at_high - at_right) / (high - right), 0.0) * (right - left));
+}
+
 // Searches for the minimum of a convex function within (low, high) by golden section; stops as soon as a value is at
-// most `enough`.
+// most `enough`, or as soon as it is clear that none is at most a level of interest.
 template <class Function>
-LeastPlace golden_section(Function f, double low, double high, double enough, double precision) {
+LeastPlace golden_section(Function f, double low, double high, double enough, double precision,
+                          std::optional<OfInterest> ask = std::nullopt) {
+  constexpr double clearly = 1e-3;  // above the level, of what the values found are above it: more than they are off
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double left = high - golden * (high - low), right = low + golden * (high - low);
   double at_left = f(left), at_right = f(right);
   for (int i = 0; i < most_search_steps && at_left > enough && at_right > enough; ++i) {
     if (high - low <= precision * high) break;
+    if (ask) {
+      const double least = least_by_chords(low, ask->at_low, left, at_left, right, at_right, high, ask->at_high);
+      if (least - ask->level > clearly * (std::min(at_left, at_right) - ask->level)) break;
+    }
     if (at_left < at_right) {
+      if (ask) ask->at_high = at_right;
       high = right, right = left, at_right = at_left;
       left = high - golden * (high - low), at_left = f(left);
     } else {
+      if (ask) ask->at_low = at_left;
       low = left, left = right, at_left = at_right;
       right = low + golden * (high - low), at_right = f(right);
     }
@@ -44,6 +69,35 @@ double boundary(Claim claim, double holds, double fails, double precision) {
     (claim(middle) ? holds : fails) = middle;
   }
   return holds;
+}
+
+// boundary() of f ≤ level for a convex function that takes long: chords soon find two places on either side of the
+// answer, next to it but for the digits that rounding decides. What these tell is then not asked for again.
+template <class Function>
+double level_boundary(Function f, double level, double holds, double fails, double precision) {
+  constexpr double next_to = 30;  // precisions
+  double inside = holds, outside = fails, below = f(holds) - level, above = f(fails) - level;
+  bool was_inside = false, was_outside = false;
+  for (int i = 0; i < most_search_steps; ++i) {
+    if (std::abs(outside - inside) <= next_to * precision * std::max(inside, outside)) break;
+    const double middle = (inside + outside) / 2, chord = (inside * above - outside * below) / (above - below);
+    const bool is_between = std::min(inside, outside) < chord && chord < std::max(inside, outside);
+    const double next = is_between && i % 4 < 3 ? chord : middle;
+    if (next == inside || next == outside) break;
+    const double there = f(next) - level;
+    const bool is_inside = there <= 0;
+    if (is_inside) inside = next, below = there;
+    else outside = next, above = there;
+    if (is_inside && was_inside) above /= 2;  // the other end stayed: its chord is drawn nearer (Illinois)
+    if (!is_inside && was_outside) below /= 2;
+    was_inside = is_inside, was_outside = !is_inside;
+  }
+  const double way = holds < fails ? 1 : -1;
+  const auto claim = [&](double x) {
+    if (way * x <= way * inside) return true;
+    return way * x < way * outside && f(x) <= level;
+  };
+  return boundary(claim, holds, fails, precision);
 }
 
 }  // namespace dashpot::compiler

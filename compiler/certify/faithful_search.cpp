@@ -33,16 +33,18 @@ double least_place(Function f, Ends span, double enough, double precision = clos
 // Where a convex function is at most `level`; empty where it is above it everywhere.
 template <class Function>
 std::optional<Ends> sublevel(Function f, Ends span, double level, double precision = exactly) {
-  const auto is_below = [&](double x) { return f(x) <= level; };
-  const bool low = is_below(span.low), high = is_below(span.high);
+  const double at_low = f(span.low), at_high = f(span.high);
+  const bool low = at_low <= level, high = at_high <= level;
   if (low && high) return span;
   double inside = low ? span.low : span.high;
   if (!low && !high) {
-    inside = least_place(f, span, level, std::max(precision, closely));
-    if (!is_below(inside)) return std::nullopt;
+    const LeastPlace least =
+        golden_section(f, span.low, span.high, level, std::max(precision, closely), OfInterest{level, at_low, at_high});
+    if (!(least.value <= level)) return std::nullopt;
+    inside = least.place;
   }
-  return Ends{low ? span.low : boundary(is_below, inside, span.low, precision),
-              high ? span.high : boundary(is_below, inside, span.high, precision)};
+  return Ends{low ? span.low : level_boundary(f, level, inside, span.low, precision),
+              high ? span.high : level_boundary(f, level, inside, span.high, precision)};
 }
 
 // One state input with all that is asked of it at one b.
@@ -125,8 +127,12 @@ class CertifiedPart {
   double most_faithful() const {
     double best = places_.front().damping, least = unbounded;
     for (const Chord& chord : chords()) {
-      const double share = least_place([&](double s) { return error(chord, s); }, {0, 1}, 0);
-      if (const double here = error(chord, share); here < least) least = here, best = chord.dampings.at(share);
+      const auto on_chord = [&](double s) { return error(chord, s); };
+      const LeastPlace ends[] = {{0, on_chord(0)}, {1, on_chord(1)}};
+      LeastPlace here = golden_section(on_chord, 0, 1, 0, closely, OfInterest{least, ends[0].value, ends[1].value});
+      for (const LeastPlace& end : ends)
+        if (end.value < here.value) here = end;
+      if (here.value < least) least = here.value, best = chord.dampings.at(here.place);
     }
     return best;
   }

@@ -1,5 +1,6 @@
 #include "certify/felt_error.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -80,7 +81,10 @@ Complex departure(const Complex& felt, const Complex& rendered) {
   return std::abs(error) <= 8 * std::numeric_limits<double>::epsilon() * std::abs(rendered) ? Complex(0) : error;
 }
 
-double error_of(double square) { return std::min(std::sqrt(square), beyond_measure); }
+// The largest that is told where it is infinite or NaN.
+double error_of(double square) {
+  return square < endless ? std::min(std::sqrt(square), beyond_measure) : beyond_measure;
+}
 
 }  // namespace
 
@@ -94,8 +98,16 @@ FeltError::FeltError(const MotorConstants& motor, const LinearForm& rendered, co
   const ClosedForm felt(rendered), reference(whole);
   for (const double frequency : frequencies_) {
     const double w = 2 * pi * frequency;
-    places_.push_back(place(motor, felt.stiffness(w), reference.stiffness(w), w));
+    const Place here = place(motor, felt.stiffness(w), reference.stiffness(w), w);
+    append(without_brake_, here.without_brake);
+    append(of_motor_, here.of_motor);
+    append(of_brake_, here.of_brake);
   }
+}
+
+void FeltError::append(Parts& parts, Complex value) {
+  parts.real.push_back(value.real());
+  parts.imaginary.push_back(value.imag());
 }
 
 // E: taps and zeros over the poles, times δ/T; jω G where the estimator is no pulse transfer function.
@@ -122,24 +134,35 @@ FeltError::Place FeltError::place(const MotorConstants& motor, Complex rendered,
   return {departure(late * law, rendered) / reference, -late * estimated / reference, rate / reference};
 }
 
-// Infinite, too, where what is felt is infinite or NaN.
-double FeltError::square_at(const Place& place, double damping, double added) const {
-  const Complex exact = place.without_brake + damping * place.of_motor + (damping + added) * place.of_brake;
-  const Complex off = tolerance_ * (damping + added) * place.of_brake;
-  const double square = std::max(std::norm(exact + off), std::norm(exact - off));
-  return square < endless ? square : endless;
+// All frequencies at once: a search for the best decomposition asks hundreds of thousands of times. A square is NaN or
+// infinite where what is felt is.
+template <class Take>
+auto FeltError::of_squares(double damping, double added, Take take) const {
+  using Values = Eigen::Map<const Eigen::ArrayXd>;
+  const double braked = damping + added;
+  const auto error = [&](double off, const std::vector<double> Parts::*part) {
+    const auto all = [&](const Parts& parts) {
+      return Values((parts.*part).data(), Eigen::Index((parts.*part).size()));
+    };
+    return all(without_brake_) + damping * all(of_motor_) + braked * all(of_brake_) + off * all(of_brake_);
+  };
+  const auto square = [&](double off) {
+    return error(off, &Parts::real).square() + error(off, &Parts::imaginary).square();
+  };
+  return take(square(tolerance_ * braked).max(square(-tolerance_ * braked)));
 }
 
 double FeltError::largest(double damping, double added) const {
-  double largest = 0;
-  for (const Place& place : places_) largest = std::max(largest, square_at(place, damping, added));
-  return error_of(largest);
+  return of_squares(damping, added,
+                    [](const auto& squares) { return error_of(squares.template maxCoeff<Eigen::PropagateNaN>()); });
 }
 
 std::vector<double> FeltError::over_band(double damping, double added) const {
-  std::vector<double> errors;
-  for (const Place& place : places_) errors.push_back(error_of(square_at(place, damping, added)));
-  return errors;
+  return of_squares(damping, added, [](const auto& squares) {
+    std::vector<double> errors;
+    for (const double square : Eigen::ArrayXd(squares)) errors.push_back(error_of(square));
+    return errors;
+  });
 }
 
 }  // namespace dashpot::compiler

@@ -44,14 +44,23 @@ class FeltError {
   Place place(const MotorConstants& motor, std::complex<double> rendered, std::complex<double> reference,
               double angular_frequency) const;
   std::complex<double> estimate(double angular_frequency, std::complex<double> difference) const;
-  double square_at(const Place& place, double damping, double added) const;  // of the error [1]
+
+  // One for each frequency.
+  struct Parts {
+    std::vector<double> real, imaginary;
+  };
+  static void append(Parts& parts, std::complex<double> value);
+
+  // What `take` makes of the squares of the error at all frequencies [1].
+  template <class Take>
+  auto of_squares(double damping, double added, Take take) const;
 
   const PortDevice& device_;
   double sample_period_;                     // [s]
   std::optional<EstimatorFactors> factors_;  // empty where PortDevice's response is used
   double tolerance_;
   std::vector<double> frequencies_;
-  std::vector<Place> places_;
+  Parts without_brake_, of_motor_, of_brake_;  // the same of all places
 };
 
 }  // namespace dashpot::compiler

@@ -6,6 +6,7 @@
 #include <complex>
 #include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/estimators/estimator_names.hpp>
+#include <limits>
 #include <numbers>
 
 #include "certify/common_storage.hpp"
@@ -436,11 +437,13 @@ class StorageSearch {
   }
 
   // The P of the longest hold, where it serves all others too: at as little more than the supremum as is found soon.
-  std::optional<StorageProof> longest_for_all() const {
+  // Nothing where that would be `most` or more.
+  std::optional<StorageProof> longest_for_all(double most) const {
     constexpr double first_tried = 1e-4, most_tried = 100;  // beyond the supremum, relative to it
     double fails = 0, serves = first_tried;
     std::optional<StorageProof> best = longest_for_all_at(serves);
-    for (; !best && serves < most_tried; best = longest_for_all_at(serves)) fails = serves, serves *= 2;
+    for (; !best && serves < most_tried && supremum_ * (1 + serves) < most; best = longest_for_all_at(serves))
+      fails = serves, serves *= 2;
     for (int i = 0; i < 3 && best && fails > 0; ++i) {
       const double middle = std::sqrt(fails * serves);
       if (std::optional<StorageProof> less = longest_for_all_at(middle)) best = std::move(less), serves = middle;
@@ -474,8 +477,8 @@ class StorageSearch {
     std::optional<checker::Storage> storage = found_storage<double>(loop_, lag_, hold_, damping, scale);
     if (!storage) return std::nullopt;
     const CommonStorage tried{1, scaled(*storage, scale)};
-    for (const HoldInequality& hold : inequalities(scale, damping))
-      if (!serves(hold, tried)) return std::nullopt;
+    for (const auto& [hold, r] : all_holds())
+      if (!serves(inequality(hold, r, scale, damping), tried)) return std::nullopt;
     return StorageProof{damping, std::move(*storage), true};
   }
 
@@ -488,9 +491,8 @@ class StorageSearch {
     return P;
   }
 
-  // Of all holds, in the coordinates of the search: states over `scale`, inputs over a unit, dampings over `damping`.
-  // Corners that doubles do not tell apart are one.
-  std::vector<HoldInequality> inequalities(const std::vector<double>& scale, double damping) const {
+  // Those that doubles do not tell apart are one.
+  const std::vector<std::pair<OneHold<double>, Recursion<double>>>& all_holds() const {
     if (holds_.empty())
       for (const checker::Hold& hold : checker::holds(device_)) {
         const checker::Rational all = hold.before + hold.after;  // [s]
@@ -502,11 +504,16 @@ class StorageSearch {
             std::any_of(holds_.begin(), holds_.end(), [&](const auto& known) { return known.first == one; });
         if (!is_known) holds_.emplace_back(one, recursion<double>(loop_, one));
       }
+    return holds_;
+  }
+
+  std::vector<HoldInequality> inequalities(const std::vector<double>& scale, double damping) const {
     std::vector<HoldInequality> all;
-    for (const auto& [hold, r] : holds_) all.push_back(inequality(hold, r, scale, damping));
+    for (const auto& [hold, r] : all_holds()) all.push_back(inequality(hold, r, scale, damping));
     return all;
   }
 
+  // Of one hold, in the coordinates of the search: states over `scale`, inputs over a unit, dampings over `damping`.
   HoldInequality inequality(const OneHold<double>& hold, const Recursion<double>& r, const std::vector<double>& scale,
                             double damping) const {
     const double unit = std::sqrt(hold_ / damping);
@@ -584,18 +591,25 @@ std::optional<StorageProof> punctual_proof(const StorageSearch& search, double m
 }
 
 // One P for holds of all lengths, behind an amplifier's lag or for measured intervals that vary. The P of the longest
-// hold is taken if it serves all others with hardly more than the necessary damping, and always if there are many
-// states.
+// hold is taken where it serves all others with less damping than the best common one that is found, always if there
+// are many states, and, where a proof is wanted soon, with hardly more than the necessary damping.
 std::optional<StorageProof> jittered_proof(const StorageSearch& search, bool is_soon) {
   constexpr double most_tried = 100;  // relative to the supremum
-  constexpr double hardly_more = 1.01;
-  const std::optional<StorageProof> of_longest = search.longest_for_all();
-  if (is_soon && of_longest && of_longest->damping < search.supremum() * hardly_more) return of_longest;
-  if (search.states() <= (of_longest ? most_states_in_common : most_states_in_common_at_all))
+  constexpr double hardly_more = 1.01, any = std::numeric_limits<double>::infinity();
+  if (is_soon)
+    if (std::optional<StorageProof> proof = search.longest_for_all(search.supremum() * hardly_more);
+        proof && proof->damping < search.supremum() * hardly_more)
+      return proof;
+  const bool has_many_states = search.states() > most_states_in_common;
+  if (has_many_states)
+    if (std::optional<StorageProof> proof = search.longest_for_all(any)) return proof;
+  if (search.states() <= most_states_in_common_at_all)
     for (double serves = 2; serves < most_tried; serves *= 2)
-      if (std::optional<StorageProof> proof = search.best_for_all(search.supremum() * serves, is_soon ? 1e-3 : 1e-4))
+      if (std::optional<StorageProof> proof = search.best_for_all(search.supremum() * serves, is_soon ? 1e-3 : 1e-4)) {
+        const std::optional<StorageProof> of_longest = search.longest_for_all(proof->damping);
         return of_longest && of_longest->damping < proof->damping ? of_longest : proof;
-  return of_longest;
+      }
+  return has_many_states ? std::nullopt : search.longest_for_all(any);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ namespace dashpot::compiler {
 namespace {
 
 using std::numbers::pi;
+using Samples = Eigen::Map<const Eigen::ArrayXd>;
 
 // Samples of a motion, at the law's rate. A sine that would need more is played faster: the error of a slip law grows
 // with the velocity, so that slower motions would show less of it.
@@ -321,7 +322,6 @@ FeltForce SlipTrial::felt(const UpdateLaw& law, std::size_t motion) const {
 }
 
 TrialError trial_error(const SlipTrial& trial, const std::vector<FeltForce>& felt) {
-  using Samples = Eigen::Map<const Eigen::ArrayXd>;
   TrialError worst;
   for (std::size_t m = 0; m < felt.size(); ++m) {
     const std::vector<double>& truth = trial.network_force(m);
@@ -346,57 +346,75 @@ ErrorBetween::ErrorBetween(const SlipTrial& trial, const std::vector<FeltForce>&
   for (std::size_t m = 0; m < first.size(); ++m)
     for (const std::vector<double> FeltForce::*end : {&FeltForce::weak, &FeltForce::strong}) {
       const std::vector<double>&low = first[m].*end, &high = second[m].*end, &truth = trial.network_force(m);
-      const std::size_t size = std::min({low.size(), high.size(), truth.size()});
+      const auto size = static_cast<Eigen::Index>(std::min({low.size(), high.size(), truth.size()}));
       if (size == 0) continue;
+      const Samples network(truth.data(), size);
+      std::vector<double> errors[2] = {std::vector<double>(std::size_t(size)), std::vector<double>(std::size_t(size))};
+      Eigen::Map<Eigen::ArrayXd> at_first(errors[0].data(), size), at_second(errors[1].data(), size);
+      at_first = Samples(low.data(), size) - network;
+      at_second = Samples(high.data(), size) - network;
       Run run;
-      std::vector<Ends> errors(size);
-      for (std::size_t i = 0; i < size; ++i) {
-        const Ends error = errors[i] = {low[i] - truth[i], high[i] - truth[i]};
-        run.first_square += error.first * error.first / double(size);
-        run.product += error.first * error.second / double(size);
-        run.second_square += error.second * error.second / double(size);
-      }
-      run.peaks = peaks_of(std::move(errors));
+      run.first_square = at_first.square().mean();
+      run.product = (at_first * at_second).mean();
+      run.second_square = at_second.square().mean();
+      run.peaks = peaks_of(errors[0], errors[1]);
       run.network_peak = trial.largest_network_force(m);
       run.network_rms = trial.rms_network_force(m);
       runs_.push_back(std::move(run));
     }
 }
 
-// First with few shares, so that most samples are gone soon.
-std::vector<ErrorBetween::Ends> ErrorBetween::peaks_of(std::vector<Ends> errors) {
-  for (const int parts : {1, 4, 16}) keep_largest(errors, parts);
+// First between the largest at either end alone, so that most samples are gone soon.
+std::vector<ErrorBetween::Ends> ErrorBetween::peaks_of(const std::vector<double>& first,
+                                                       const std::vector<double>& second) {
+  const Samples at_first(first.data(), Eigen::Index(first.size())),
+      at_second(second.data(), Eigen::Index(second.size()));
+  Eigen::Index one = 0, other = 0;
+  at_first.abs().maxCoeff(&one);
+  at_second.abs().maxCoeff(&other);
+  std::vector<Ends> largest = {{at_first(one), at_second(one)}, {at_first(other), at_second(other)}};
+  const Meeting meeting = meetings_of(largest).front();
+  const Eigen::ArrayXd sizes = ((1 - meeting.share) * at_first + meeting.share * at_second).abs();
+  std::vector<Ends> errors = std::move(largest);
+  for (Eigen::Index i = 0; i < sizes.size(); ++i)
+    if (!(sizes(i) < meeting.size)) errors.push_back({at_first(i), at_second(i)});
+  for (const int parts : {4, 16}) keep_largest(errors, parts);
   return errors;
 }
 
-// Keeps what is the largest at some share. At `parts` + 1 shares the largest is looked for, with its sign: a line. All
-// errors' sizes are convex, so one that is below two neighbouring lines where they meet is below the larger of both
-// everywhere between.
-void ErrorBetween::keep_largest(std::vector<Ends>& errors, int parts) {
-  std::vector<Ends> lines;
-  for (int k = 0; k <= parts; ++k) {
-    const double share = double(k) / parts;
-    Ends largest = errors.front();
-    double size = std::abs(largest.at(share));
-    for (const Ends& error : errors)
-      if (const double other = std::abs(error.at(share)); size < other) size = other, largest = error;
-    const double sign = largest.at(share) < 0 ? -1 : 1;
-    lines.push_back({sign * largest.first, sign * largest.second});
-  }
-  std::vector<std::pair<double, double>> meetings;  // a share, and the size there
-  for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
-    const Ends &one = lines[k], &other = lines[k + 1];
+// Where the lines of the largest at neighbouring shares meet, each with the sign that it has at its own share.
+std::vector<ErrorBetween::Meeting> ErrorBetween::meetings_of(const std::vector<Ends>& largest) {
+  const double parts = double(largest.size() - 1);
+  const auto line = [&](std::size_t k) {
+    const double sign = largest[k].at(double(k) / parts) < 0 ? -1 : 1;
+    return Ends{sign * largest[k].first, sign * largest[k].second};
+  };
+  std::vector<Meeting> meetings;
+  for (std::size_t k = 0; k + 1 < largest.size(); ++k) {
+    const Ends one = line(k), other = line(k + 1);
     const double at_first = one.first - other.first, at_second = one.second - other.second;
     const bool cross = (at_first > 0) != (at_second > 0) && at_first != at_second;
     const double share = cross ? at_first / (at_first - at_second) : double(k) / parts;
-    meetings.emplace_back(share, std::max(one.at(share), other.at(share)));
+    meetings.push_back({share, std::max(one.at(share), other.at(share))});
   }
+  return meetings;
+}
+
+// Keeps what is the largest at some share: that of `parts` + 1 shares, and what is not below two neighbours of these
+// where their lines meet. All errors' sizes are convex, so what is below there is below the larger of both everywhere
+// between.
+void ErrorBetween::keep_largest(std::vector<Ends>& errors, int parts) {
+  std::vector<Ends> largest;
+  for (int k = 0; k <= parts; ++k) {
+    const auto size = [share = double(k) / parts](const Ends& error) { return std::abs(error.at(share)); };
+    largest.push_back(*std::ranges::max_element(errors, {}, size));
+  }
+  const std::vector<Meeting> meetings = meetings_of(largest);
   std::erase_if(errors, [&](const Ends& error) {
-    for (const auto& [share, size] : meetings)
-      if (!(std::abs(error.at(share)) < size)) return false;
-    return true;
+    return std::ranges::all_of(
+        meetings, [&](const Meeting& meeting) { return std::abs(error.at(meeting.share)) < meeting.size; });
   });
-  for (const Ends& line : lines) errors.push_back(line);
+  errors.insert(errors.end(), largest.begin(), largest.end());
 }
 
 double ErrorBetween::at(double share) const {

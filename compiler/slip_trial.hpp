@@ -98,7 +98,14 @@ class ErrorBetween {
     double network_peak = 0, network_rms = 0;
   };
 
-  static std::vector<Ends> peaks_of(std::vector<Ends> errors);
+  // Where the sizes of two errors are equal.
+  struct Meeting {
+    double share, size;
+  };
+
+  // In: errors of all samples at a share of 0 and of 1, at least one.
+  static std::vector<Ends> peaks_of(const std::vector<double>& first, const std::vector<double>& second);
+  static std::vector<Meeting> meetings_of(const std::vector<Ends>& largest);  // at shares equally far apart
   static void keep_largest(std::vector<Ends>& errors, int parts);
 
   std::vector<Run> runs_;

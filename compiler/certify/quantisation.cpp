@@ -92,6 +92,7 @@ class MotorPulse {
 };
 
 constexpr std::size_t longest_pulse = 100'000;  // samples; what is left is bounded
+constexpr std::size_t between_looks = 16;       // samples; a look at what is left takes longer than one
 
 double sum_of_pulse(const MotorConstants& motor, const SampledLoop& loop, const EstimatorFactors& estimator) {
   MotorPulse pulse(motor, loop.sample_period);
@@ -99,8 +100,10 @@ double sum_of_pulse(const MotorConstants& motor, const SampledLoop& loop, const 
   const bool follows = motor.follows_estimate();
   double sum = std::abs(pulse.next(1, follows ? averaged.next() : 0));
   sum += std::abs(pulse.next(0, follows ? averaged.next() : 0));
-  for (std::size_t j = 0; follows && !averaged.is_over() && j < longest_pulse; ++j)
+  for (std::size_t j = 0; follows && j < longest_pulse; ++j) {
+    if (j % between_looks == 0 && averaged.is_over()) break;
     sum += std::abs(pulse.next(0, averaged.next()));
+  }
   return sum + pulse.to_come(follows ? averaged.rest() : 0);
 }
 

@@ -102,7 +102,9 @@ Uncertainty::Uncertainty(const Problem& problem, const Model& model, double effe
   if (next == 0 || count <= parameters) return;
   covariance_ = inverse_normal(jacobian, condition_) * (model.residual_sum / (count - parameters) * count / effective);
   is_told_ = effective >= parameters + 5;
-  if (is_told_) quantile_ = boost::math::quantile(boost::math::students_t(effective - parameters), 0.975);
+  using boost::math::policies::policy, boost::math::policies::promote_double;
+  using StudentsT = boost::math::students_t_distribution<double, policy<promote_double<false>>>;
+  if (is_told_) quantile_ = boost::math::quantile(StudentsT(effective - parameters), 0.975);
 }
 
 std::optional<Interval> Uncertainty::interval(const ElementQuantity& quantity) const {

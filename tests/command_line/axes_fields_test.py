@@ -155,7 +155,7 @@ class AxesFieldsTest(CommandTest):
         self.assertIn("'gate_reserve' is", refused)
 
     def test_where_no_device_is_named_there_is_no_workspace(self):
-        """Fails if explain tells of a workspace of no device."""
+        """Fails if explain prints a workspace where there is no device."""
         network = self.write("turning.json", json.dumps(field_of("turning", 1.5, 5)))
         said = self.text_of(network)
         self.assertIn("in the mean over the field, while", said)

@@ -147,7 +147,7 @@ class AxesMotion(CommandTest):
                 self.assertEqual(told["limited_samples"] > 0, name == "limit")
 
     def test_damping_for_passivity_is_no_part_of_the_network(self):
-        """Fails if damping that is added to the brakes counts as the network's, or is not told."""
+        """Fails if damping that is added to the brakes counts as the network's, or is not reported."""
         net = self.network({"map": {"along": [1, 0]}, "network": {"spring": "200 N/m"}})
         device = self.device("cartesian", mechanics={"damping": "0 N s/m"}, encoders={"max_speed": "1 m/s"})
         rows, told = self.played(net, device, table([(k / 2000, 0.005 * math.sin(2 * math.pi * k / 2000), 0.095) for k in range(2001)]))
@@ -176,7 +176,8 @@ class AxesMotion(CommandTest):
         self.assertLess(told["tip"]["error"]["rms_share"], 0.1)
 
     def test_energy(self):
-        """Fails if the energy that is told is not what motors and brakes have taken: a field takes what it takes."""
+        """Fails if the energy that is reported is not what motors and brakes have taken: a field takes what it
+        takes."""
         net = self.network({"map": {"along": [1, 0]}, "network": {"damper": "1 N s/m"}}, {"map": {"along": [0, 1]}, "network": {"damper": "1 N s/m"}})
         _, told = self.played(net, self.device(), table(along(round_the_middle, 1 / 2000)))
         # ∫ v² dt over a second of 12 mm at 1 Hz and 10 mm at 2 Hz. Couplings are the motors', from estimates half a sample late.

@@ -384,8 +384,8 @@ class AxesTest(CommandTest):
         self.assertIn("N·m·s/rad of damping are missing at the joints, more than its brakes have left", refused)
 
     def test_brakes_that_would_do(self):
-        """Fails if a refusal of two axes does not tell of stronger brakes that would do, or of some that would not, or of far more than
-        is needed."""
+        """Fails if a refusal of two axes does not suggest stronger brakes that would do, or suggests some that would
+        not, or far more than is needed."""
         device = json.loads(PANTOGRAPH.read_text())
         network = {"dashpot": 1, "axes": 2, "name": "groove", "ports": [
             {"name": "across", "map": {"along": [1, 0]}, "network": {"parallel": [{"spring": "150 N/m"}, {"damper": "1 N s/m"}]}}]}
@@ -406,8 +406,8 @@ class AxesTest(CommandTest):
         compiled([0.8 * limit for limit in limits], INPUT_REFUSED)
 
     def test_the_steps_of_the_encoders(self):
-        """Fails if explain tells less of what the encoders' steps change at the joints than they do somewhere, or far more, or nothing of
-        the friction that takes it."""
+        """Fails if explain reports less of what the encoders' steps change at the joints than they do somewhere, or far
+        more, or nothing of the friction that takes it."""
         ball = {"name": "ball", "map": {"ball": {"centre": [0, "40 mm"], "radius": "90 mm"}}, "network": {"spring": "400 N/m"}}
         network = self.write("ball.json", json.dumps({"dashpot": 1, "axes": 2, "name": "round_spring", "ports": [ball]}))
         told = json.loads(self.dashpot("explain", network, "--device", PANTOGRAPH, "--json").stdout)["torque_of_steps"]
@@ -516,7 +516,8 @@ class AxesTest(CommandTest):
                 self.assertEqual(self.dashpot("check", "floor.json", "--device", "device.json").stderr, told)
 
     def test_what_the_springs_held_is_no_gain(self):
-        """Fails if energy that comes out of springs that are pressed when a run begins is told as energy that came from nowhere."""
+        """Fails if energy that comes out of springs that are pressed when a run begins is reported as energy that came
+        from nowhere."""
         self.write("floor.json", json.dumps({"dashpot": 1, "axes": 2, "name": "soft_floor", "ports": [
             {"name": "floor", "map": {"wall": {"through": [0, "110 mm"], "normal": [0, 1]}}, "network": {"spring": "150 N/m"}}]}))
         # In the middle of the workspace the wall is pressed by 15 mm.

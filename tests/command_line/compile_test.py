@@ -105,7 +105,8 @@ class Files(CommandTest):
             self.dashpot("compile", file, "--batch")
 
     def test_c99(self):
-        """Fails if --target c99 writes anything but one header in C, or what it has nothing for passes in silence."""
+        """Fails if --target c99 writes anything but one header in C, or what it has nothing for passes without a
+        message."""
         self.dashpot("compile", "kelvin.json", "--target", "c99", "-o", "out")
         self.assertEqual(self.files("out"), ["kelvin.h"])
         header = (self.folder / "out/kelvin.h").read_text()
@@ -263,7 +264,8 @@ class Files(CommandTest):
         self.assertEqual(self.files("out"), [])
 
     def test_what_the_system_says(self):
-        """Fails if a full disk, a file in the place of a folder or a folder in the place of a file are told alike."""
+        """Fails if a full disk, a file in the place of a folder or a folder in the place of a file are reported
+        alike."""
         (self.folder / "folder").mkdir()
         for target, reason in [("/dev/full", "No space left on device"), ("kelvin.json/c", "Not a directory"), ("folder", "Is a directory")]:
             told = self.refused("compile", "kelvin.json", "-o", "out", "--certificate", target, code="cannot-write-file").stderr

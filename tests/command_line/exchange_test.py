@@ -73,7 +73,7 @@ class Exchange(CommandTest):
         self.assertNotIn("x.json", self.files())
 
     def test_what_is_no_series_is_not_exported(self):
-        """Fails if a damper at the tool, a slip or a contact is left out in silence."""
+        """Fails if a damper at the tool, a slip or a contact is left out without a message."""
         for text in (KELVIN, network('{ "spring": 3 }'),
                      network('{ "series": [ { "slip": 1 }, { "spring": 3 } ] }'),
                      network('{ "series": [ { "damper": 1 }, { "spring": 3 } ] }', more='"contact": { "at": 0 },')):
@@ -89,7 +89,7 @@ class Exchange(CommandTest):
             self.expect_close(form(self, f"{name}.json"), given, 1e-12, name)
 
     def test_forms_that_there_are_not(self):
-        """Fails if a network with slips, or one with a damper at the tool, is told as what it is not."""
+        """Fails if a network with slips, or one with a damper at the tool, is exported in a form that it does not have."""
         self.write("slip.json", network('{ "series": [ { "slip": 1 }, { "spring": 3 } ] }'))
         self.refused("explain", "slip.json", "--as", "kelvin", code="no-linear-form")
         self.write("kelvin.json", KELVIN)

@@ -139,8 +139,8 @@ class Json(CommandTest):
             self.assertLessEqual(candidate["damping"], 2.8 * (1 + 1e-12))
 
     def test_the_default_on_a_device_is_faithful(self):
-        """Fails if the paper's rule is still the default on a device, where Fig. 5's network feels like another one, or if the
-        choice is not within what it allows itself, moves over no assumed value, or is not told in words."""
+        """Fails if the paper's rule is still the default on a device, where Fig. 5's network feels like another one, or
+        if the choice is not within what it allows itself, moves over no assumed value, or is not explained in words."""
         found = self.explained(FIG_5, "--device", PANTOGRAPH)
         candidates = {candidate["name"]: candidate for candidate in found["candidates"]}
         faithful, paper, choice = candidates["faithful"], candidates["paper"], found["choice"]
@@ -209,7 +209,8 @@ class Json(CommandTest):
                          self.explained(FIG_5, "--device", PANTOGRAPH, "--decomposition", "paper"))
 
     def test_an_error_comes_with_a_remedy_that_holds(self):
-        """Fails if a choice that is the tissue no more goes unsaid, or if what is told to do instead does not do it."""
+        """Fails if a choice that is the tissue no more is not reported, or if what is suggested instead does not do
+        it."""
         done = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH, "--decomposition", "paper", "--state-input", "velocity")
         self.assertIn("[felt-error]", done.stderr)
         options, error = re.search(r"'(--.*)' has been tried: it errs by up to ([0-9.]+) %", done.stderr).groups()
@@ -218,7 +219,8 @@ class Json(CommandTest):
         self.assertEqual(f"{100 * chosen['largest_error']:.3g}", error)
 
     def test_a_default_that_is_not_the_tissue_is_told(self):
-        """Fails if the error of the default goes unsaid, or if a device with the change that is told errs by anything else."""
+        """Fails if the error of the default is not reported, or if a device with the suggested change errs by anything
+        else."""
         said = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH).stderr
         error = float(re.search(r"with 'faithful' what is felt errs by up to (\S+) % in the band", said).group(1))
         told = re.search(r"(\S+) % without the amplifier's lag", said).group(1)
@@ -262,7 +264,8 @@ class Json(CommandTest):
         return float(re.search(r"errs by up to (\S+) % in runs around yield", said).group(1)), said
 
     def test_where_slips_give_way_another_choice_is_named(self):
-        """Fails if a law that was asked for errs in silence, or if the choice that is told to err less does not."""
+        """Fails if a law that was asked for errs without a warning, or if the choice that is said to err less does
+        not."""
         self.write("skin.json", self.SKIN_OVER_FASCIA)
         self.write("stage.json", json.dumps(self.STAGE))
         arguments = ["skin.json", "--device", "stage.json"]
@@ -272,7 +275,7 @@ class Json(CommandTest):
         self.assertEqual(self.felt_where_slips_give_way(*arguments, *options.split())[0], float(told))
 
     def test_where_slips_give_way_another_rate_is_named(self):
-        """Fails if a rate that is told to err less does not, on a slow device without other faults that cost more."""
+        """Fails if a rate that is said to err less does not, on a slow device without other faults that cost more."""
         self.write("skin.json", self.SKIN_OVER_FASCIA)
         device = json.loads(PANTOGRAPH.read_text())
         del device["assumed"], device["motor"]["amplifier_lag"]
@@ -288,7 +291,7 @@ class Json(CommandTest):
         self.assertEqual(self.felt_where_slips_give_way("skin.json", "--device", "faster.json")[0], float(told))
 
     def test_where_slips_give_way_a_value_of_the_device_is_named(self):
-        """Fails if a device with the change that is told does not err by what is told."""
+        """Fails if a device with the suggested change does not err by what was predicted."""
         device = json.loads(PANTOGRAPH.read_text())
         network_file = SOURCE / "networks/paper/visco_elasto_plastic.json"
         error, said = self.felt_where_slips_give_way(network_file, "--device", PANTOGRAPH)
@@ -319,7 +322,7 @@ class Json(CommandTest):
         self.assertIn(f"position {paper['minimum_damping']:.4g} N s/m, {100 * paper['largest_error']:.4g} %", asked["reason"])
 
     def test_behind_slips_no_more_is_added_than_is_missing(self):
-        """Fails if more is added to the brake than the minimum damping that is told; what is added is felt."""
+        """Fails if more is added to the brake than the minimum damping that is reported; what is added is felt."""
         self.write("needle.json", """{ "dashpot": 1, "name": "needle", "network": { "parallel": [ { "damper": 0.41 }, { "spring": 18.5 },
           { "series": [ { "spring": 65.6 }, { "damper": 5.25 } ] }, { "series": [ { "slip": 0.75 }, { "spring": 1500 } ] } ] } }""")
         device = json.loads(PANTOGRAPH.read_text())
@@ -335,7 +338,7 @@ class Json(CommandTest):
         self.assertAlmostEqual(added, row["minimum_damping"], delta=1e-5 * added)
 
     def test_what_is_proved_at_the_motors_limit_is_told(self):
-        """Fails if a choice, or damping of the device's own, that is told to be proved at the motor's limit is not."""
+        """Fails if a choice, or damping of the device's own, that is said to be proved at the motor's limit is not."""
         proved = "this is passive with the"
         done = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH)
         self.assertNotIn(proved, " ".join(done.stdout.split()))
@@ -410,7 +413,8 @@ class Json(CommandTest):
                 self.assertLess(0.9 * chosen["largest_error"], other["largest_error"], damping)
 
     def test_changes_of_the_device_are_listed(self):
-        """Fails if a shorter window or a faster loop goes unsaid, or a listed change does not bring what is told, or not the best is first."""
+        """Fails if a shorter window or a faster loop is not reported, or a listed change does not bring what was
+        predicted, or not the best is first."""
         self.write("late.json", json.dumps(self.LATE))
         self.write("pad.json", self.PAD)
         said = self.dashpot("explain", "pad.json", "--device", "late.json").stderr
@@ -453,7 +457,7 @@ class Json(CommandTest):
             self.assertAlmostEqual(100 * row["largest_error"], float(error), delta=0.01 * float(error))
 
     def test_what_the_brake_is_told(self):
-        """Fails if what passivity adds to b goes unsaid beside it, or is not what the law tells the brake."""
+        """Fails if what passivity adds to b is not stated beside it, or is not what the law commands the brake."""
         self.write("late.json", json.dumps(self.LATE))
         self.write("pad.json", self.PAD)
         chosen, found = self.chosen_row("pad.json", "--device", "late.json")
@@ -475,7 +479,7 @@ class Json(CommandTest):
         self.assertLess(other["largest_error"], 0.9 * chosen["largest_error"])
 
     def test_an_error_is_told_of_what_is_not_certified_too(self):
-        """Fails if what is felt errs in silence where the law is not certified either."""
+        """Fails if what is felt errs without a warning where the law is not certified either."""
         self.write("late.json", json.dumps({key: value for key, value in self.LATE.items() if key not in ("brake", "mechanics")}))
         self.write("pad.json", self.PAD)
         chosen, found = self.chosen_row("pad.json", "--device", "late.json")
@@ -484,7 +488,8 @@ class Json(CommandTest):
         self.assertIn("[felt-error]", self.dashpot("explain", "pad.json", "--device", "late.json").stderr)
 
     def test_a_brake_that_would_do_is_written_whole(self):
-        """Fails if the brake that is told for a device without one is refused, or does not do, when it is written as it is told."""
+        """Fails if the brake that is suggested for a device without one is refused, or does not suffice, when it is
+        written as suggested."""
         device = {key: value for key, value in self.LATE.items() if key not in ("brake", "mechanics")}
         self.write("late.json", json.dumps(device))
         self.write("pad.json", self.PAD)
@@ -668,7 +673,7 @@ class MotorLimits(CommandTest):
         self.assertIn("may have to change 1.002 times as fast as its slew lets it", found["certificate"]["reason"])
 
     def test_a_slew_that_would_do_is_told(self):
-        """Fails if the slew that is told is not enough, or if nothing is said where only a motor without one would do."""
+        """Fails if the suggested slew is not enough, or if nothing is said where only a motor without one would do."""
         compiled = ["compile", "wall.json", "--device", "slewing.json", "--decomposition", "velocity-free", "-o", "out"]
         self.explained(slew="499 N/s")
         slew = re.search(r'"slew": "(\S+ N/s)" in "motor" of the device file, in place of 499;', self.dashpot(*compiled).stderr).group(1)
@@ -687,7 +692,8 @@ class MotorLimits(CommandTest):
         self.assertNotIn("would do", self.dashpot("explain", *asked).stderr)
 
     def test_slips_shed(self):
-        """Fails if a network with slips clips where its motor gives less than they hold, or its header does not tell."""
+        """Fails if a network with slips clips where its motor gives less than they hold, or its header does not say
+        so."""
         limits = self.explained("slip.json", max_torque="8 N")["motor_limits"]
         self.assertEqual((limits["rule"], limits["covered"]), ("sheds", True))
         self.dashpot("compile", "slip.json", "--device", "slewing.json", "--decomposition", "velocity-free", "--certificate", "slip_certificate.json")

@@ -1,4 +1,4 @@
-"""dashpot fit: what it reads, writes, tells and refuses, and that what it writes is what runs."""
+"""dashpot fit: what it reads, writes, reports and refuses, and that what it writes is what runs."""
 import csv
 import json
 import math
@@ -68,7 +68,7 @@ class Fit(CommandTest):
         return json.loads(self.fit(*arguments, "--json").stdout)
 
     def test_writes_what_runs(self):
-        """Fails if the file does not simulate to the answer that was told, or its emitted code to other bits."""
+        """Fails if the file does not simulate to the answer that was reported, or its emitted code to other bits."""
         self.write("zener.csv", recording())
         told = self.told("zener.csv", "-o", "zener.json")
         self.assertEqual([element["name"] for element in told["elements"]], ["K0", "K1", "B1"])
@@ -223,8 +223,8 @@ int main() {
         self.assertEqual({name.replace("_", "-") for name in every} - provoked, {"fit-floor-not-certified"})
 
     def test_units_and_names_that_are_overruled(self):
-        """Fails if --columns overrules the unit of a header without a word, if a file's name that no law may have stops a fit, or if
-        such a --name is told only after the fit."""
+        """Fails if --columns overrules the unit of a header without a word, if a file's name that no law may have stops
+        a fit, or if such a --name is refused only after the fit."""
         rows = "\n".join(f"{i},{2 / (i + 1) + 1}" for i in range(40))
         self.write("relax.csv", "time [s],stiffness [N/m]\n" + rows + "\n")
         asked = ["relax.csv", "--relaxation", "--columns"]
@@ -250,7 +250,8 @@ int main() {
         self.dashpot("check", "brain.json")
 
     def test_tissue_that_stiffens(self):
-        """Fails if a curve that the recordings show is not found, told, written and compiled, or what was tried is not shown."""
+        """Fails if a curve that the recordings show is not found, reported, written and compiled, or what was tried is
+        not shown."""
         rows = "".join(f"{i / 100},{x!r},{2 * (math.exp(3 * x) - 1) / (math.exp(6) - 1) + 1e-3 * math.sin(37 * i)!r}\n"
                        for i in range(400) for x in [1 - math.cos(i / 40)])
         self.write("stiff.csv", "time [s],position [mm],force [N]\n" + rows)
@@ -332,7 +333,7 @@ int main() {
         self.assertNotIn("[device-instead-of-network]", done.stderr)
 
     def test_check_takes_what_fit_takes_to_read(self):
-        """Fails if check cannot be told of columns or a geometry, or refuses a recording that wants nothing else."""
+        """Fails if check does not take columns or a geometry, or refuses a recording that wants nothing else."""
         self.write("relax.csv", "time [s],modulus [kPa]\n0,3\n1,2\n2,1.5\n3,1.2\n")
         done = self.dashpot("check", "relax.csv")
         self.assertIn("'relax.csv' reads well", done.stderr)
@@ -421,7 +422,8 @@ int main() {
         self.assertNotIn("[fit-untouched]", self.fit("zener.csv").stderr)
 
     def test_a_surface_that_is_not_left(self):
-        """Fails if rows are left out that carry a force, and R² alone is told; or if rows without force are blamed."""
+        """Fails if rows are left out that carry a force, and R² alone is reported; or if rows without force are
+        blamed."""
         self.write("leaves.csv", approach())
         self.write("sticks.csv", approach(force_after_lift_off=-0.3))
         surface = ["--contact", "2.6 mm"]
@@ -437,7 +439,8 @@ int main() {
             self.assertIn(part, page)
 
     def test_sizes_behind_a_surface(self):
-        """Fails if sizes, effective samples and floor are told of a surface that the chosen network does not leave."""
+        """Fails if sizes, effective samples and floor are reported of a surface that the chosen network does not
+        leave."""
         self.write("approach.csv", approach())
         told = self.told("approach.csv", "--contact", "find")
         chosen = min(told["sizes"], key=lambda entry: entry["criterion"])

@@ -1,4 +1,5 @@
-"""The limits that networks/README.md tells: what lies at them is taken, what lies beyond is refused with the number."""
+"""The limits that networks/README.md states: what lies at them is taken, what lies beyond is refused with the
+number."""
 import json
 import re
 import unittest
@@ -66,7 +67,7 @@ class Limits(CommandTest):
         self.assertIn("more than 100 levels", self.refuses(beyond, "too-deep"))
 
     def test_elements_and_values(self):
-        """Fails if more elements or values than are told pass, or as many are refused."""
+        """Fails if more elements or values than stated pass, or as many are refused."""
         self.taken(parallel_springs(20000))
         self.assertIn("20001 elements; at most 20000", self.refuses(parallel_springs(20001), "too-many-elements"))
         self.assertIn("more than 500000 values", self.refuses('{ "dashpot": 1, "name": "sample", "network": [' + "1," * 500000 + "1] }", "too-many-values"))

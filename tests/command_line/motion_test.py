@@ -93,7 +93,8 @@ class Motion(CommandTest):
                 else: self.assertGreater(told["error"]["rms"], 2 * exact["error"]["rms"])
 
     def test_what_the_brake_and_the_motor_do(self):
-        """Fails if the brake's command, what of it is there for passivity, or forces that the motor cannot make are not told."""
+        """Fails if the brake's command, what of it is there for passivity, or forces that the motor cannot make are not
+        reported."""
         net = self.write("spring.json", network('{ "spring": 200 }', "spring"))
         device = self.device(mechanics={"damping": "0 N s/m"}, motor={"max_torque": "1 N"})
         rows, told = self.played(net, device, table(sine(2000)), "--decomposition", "velocity-free")
@@ -148,8 +149,8 @@ class Motion(CommandTest):
         self.assertLess(told["error"]["rms_share"], 0.1)
 
     def test_slips_behind_a_static_curve(self):
-        """Fails if the error that is told of slips behind a static curve leaves out the curve, or the damping that the
-        curve needs for passivity, or if it depends on where the surface lies."""
+        """Fails if the error that is reported of slips behind a static curve leaves out the curve, or the damping that
+        the curve needs for passivity, or if it depends on where the surface lies."""
         device = self.device(loop={"delay_samples": 1}, encoder={"resolution": "2 um"},
                              mechanics={"damping": "0.8 N s/m"},
                              velocity={"estimator": "backward_difference", "window": 4},
@@ -212,7 +213,8 @@ class Motion(CommandTest):
         self.assertEqual(*map(len, results))
 
     def test_what_is_printed_and_written(self):
-        """Fails if the errors are not told, the file is not where it is said to be, or a run is not the same from the same seed."""
+        """Fails if the errors are not reported, the file is not where it is said to be, or a run is not the same from
+        the same seed."""
         self.write("motion.csv", table(sine(250)))
         done = self.dashpot("run", FIG_5, "--device", PANTOGRAPH, "--motion", "motion.csv")
         for words in ["10001 samples at 10000 Hz", "error of what is felt: rms ", "energy: ", "log: second_order_maxwell_run.csv"]:
@@ -224,8 +226,8 @@ class Motion(CommandTest):
         self.assertNotEqual(first, (self.folder / "again.csv").read_text())
 
     def test_energy(self):
-        """Fails if the energy that is told is not what the device has taken: a spring whose force is held for a period gives back
-        k Δu²/2 in each more than it took, and a damper takes what it takes."""
+        """Fails if the energy that is reported is not what the device has taken: a spring whose force is held for a
+        period gives back k Δu²/2 in each more than it took, and a damper takes what it takes."""
         rows = sine(2000)
         travel = sum((b[1] - a[1]) ** 2 for a, b in zip(rows, rows[1:]))
         net = self.write("spring.json", network('{ "spring": 3000 }', "spring"))
@@ -239,7 +241,8 @@ class Motion(CommandTest):
         self.assertEqual(told["energy"]["lowest"], 0)
 
     def test_a_start_that_is_loaded(self):
-        """Fails if what the network holds as the motion begins is not told, so that giving it out passes for energy made."""
+        """Fails if what the network holds as the motion begins is not reported, so that giving it out passes for energy
+        made."""
         rows = [(k / 2000, 0.004 if k < 200 else max(0.0, 0.004 - 0.01 * (k - 200) / 2000)) for k in range(1200)]
         net = self.write("spring.json", network('{ "spring": 3000 }', "spring"))
         _, told = self.played(net, self.device(), table(rows), "--decomposition", "velocity-free")

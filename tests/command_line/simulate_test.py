@@ -129,7 +129,7 @@ class Velocity(SimulateTest):
 
 class Rate(SimulateTest):
     def test_is_taken_from_the_file(self):
-        """Fails if the law runs at another period than the rows: the answer to one row's ramp tells."""
+        """Fails if the law runs at another period than the rows: the answer to one row's ramp shows it."""
         for rate in [5, 30, 1000, 44100]:
             row = self.simulated("maxwell.json", table(ramp(3, rate)))[1]
             self.assertAlmostEqual(row["force"], 5 * (1 - math.exp(-10 / rate)), delta=1e-11)
@@ -274,7 +274,7 @@ class Table(SimulateTest):
         self.dashpot("check", "joints.csv")
 
     def test_a_column_twice(self):
-        """Fails if one of two columns of the same name is taken in silence."""
+        """Fails if one of two columns of the same name is taken without a warning."""
         self.refuses(table([(0, 0, 1)], "time,position,position"), "csv-column-twice")
 
     def test_nothing_to_simulate(self):
@@ -295,7 +295,8 @@ class Table(SimulateTest):
         self.refuses("time,position,velocity\n0,0,x\n", "csv-not-a-number")
 
     def test_numbers_that_no_double_holds(self):
-        """Fails if a number that is finite, and yet beyond a double, is taken for another, or told that it is not finite."""
+        """Fails if a number that is finite, and yet beyond a double, is taken for another, or reported as not
+        finite."""
         for cell, code in [("1e999", "number-too-large"), ("-1e999", "number-too-large"), ("1e-400", "number-too-small"), ("-1e-400", "number-too-small")]:
             told = self.refuses(f"time,position\n0,0\n0.001,{cell}\n", code).stderr
             self.assertTrue(told.startswith(f"motion.csv:3:7: error: '{cell}' is "), told)
@@ -313,7 +314,8 @@ class Table(SimulateTest):
         self.refuses("time,position\n0,0\n0.001,0\n0.002,0\n0.003000003,0\n", "csv-not-uniform")
 
     def test_times_that_do_not_rise(self):
-        """Fails if time that falls or stands still passes, is not told as that, or more digits are asked for where none would help."""
+        """Fails if time that falls or stands still passes, is not reported as that, or more digits are asked for where
+        none would help."""
         for rows, line, found, before in [([0.002, 0.001, 0], 3, "0.001", "0.002"), ([0, 0.001, 0.0005, 0.002], 4, "0.0005", "0.001"),
                                           ([0, 0.001, 0.005, 0.004], 5, "0.004", "0.005")]:
             told = self.refuses(table([(time, 0) for time in rows]), "csv-time-not-rising").stderr
@@ -386,7 +388,8 @@ class Tunables(SimulateTest):
             self.assertEqual(pushed(name), plain, name)
 
     def test_values_beyond_the_range(self):
-        """Fails if a value beyond its range is taken as it is, or clamped in silence, or warned of in every row."""
+        """Fails if a value beyond its range is taken as it is, or clamped without a warning, or warned of in every
+        row."""
         self.write("motion.csv", table([(0, 0, 1000), (0.001, 0.01, 1000), (0.002, 0.01, 1)], "time,position,K"))
         done = self.dashpot("simulate", "tuned.json", "--input", "motion.csv")
         self.assertEqual(done.stderr.count("[outside-tunable-range]"), 1)
@@ -396,7 +399,8 @@ class Tunables(SimulateTest):
         self.assertGreaterEqual(forces[2], 10 * 0.01)
 
     def test_a_slip_whose_yield_force_is_taken_away(self):
-        """Fails if a yield force may not be tuned down to zero, or there holds anything but the share of its greatest that is told."""
+        """Fails if a yield force may not be tuned down to zero, or there holds anything but the share of its greatest
+        that is stated."""
         text = self.NETWORK.replace('{ "damper": "B" }', '{ "series": [ { "slip": "B" }, { "spring": 1000 } ] }').replace('{ "spring": "K" }, ', "")
         self.write("friction.json", text)
         for scalar, share in [("double", 2**-24), ("float", 2**-10)]:
@@ -416,7 +420,8 @@ class Tunables(SimulateTest):
         self.refused("simulate", "tuned.json", "--input", "motion.csv", code="number-too-large")
 
     def test_a_column_twice(self):
-        """Fails if one of two columns that are called like a tunable is taken in silence, or columns that nobody reads are minded."""
+        """Fails if one of two columns that are called like a tunable is taken without a warning, or columns that nobody
+        reads are minded."""
         self.write("motion.csv", table([(0, 0, 100, 1, 300, 7)], "time,position,K,note,K,note"))
         told = self.refused("simulate", "tuned.json", "--input", "motion.csv", code="csv-column-twice").stderr
         self.assertTrue(told.startswith("motion.csv:1:22: error: column 'K' is there twice"), told)
@@ -424,7 +429,8 @@ class Tunables(SimulateTest):
         self.dashpot("simulate", "kelvin.json", "--input", "motion.csv")
 
     def test_a_name_that_a_motion_has_itself(self):
-        """Fails if a tunable that no column can ever set is simulated in silence, or refused where no motion is read."""
+        """Fails if a tunable that no column can ever set is simulated without a warning, or refused where no motion is
+        read."""
         self.write("tuned.json", self.NETWORK.replace('"K"', '"time"'))
         self.write("motion.csv", table(ramp(3)))
         told = self.refused("simulate", "tuned.json", "--input", "motion.csv", code="tunable-named-as-column").stderr
@@ -444,7 +450,7 @@ class Tunables(SimulateTest):
 
 class Validity(SimulateTest):
     def test_leaving_the_valid_range_is_said_once(self):
-        """Fails if a motion beyond what the tissue was measured for goes unsaid, or is said in every row."""
+        """Fails if a motion beyond what the tissue was measured for is not reported, or is said in every row."""
         self.write("valid.json", network('{ "spring": 3 }', more='"valid": { "displacement": "5 mm", "rate": "0.5 m/s" },'))
         self.write("motion.csv", table(ramp(50)))
         done = self.dashpot("simulate", "valid.json", "--input", "motion.csv")

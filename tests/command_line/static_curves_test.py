@@ -40,8 +40,8 @@ class StaticCurvesTest(CommandTest):
         self.assertIsNone(json.loads(self.dashpot("explain", SOURCE / "networks/paper/kelvin.json", "--json").stdout)["static"])
 
     def test_a_contact_lets_go_where_it_says(self):
-        """Fails if the gap behind which a contact lets go is told as it is behind the curve's map, and not as it is at the tool; or if
-        another reason than the curve is given for a force without a bound."""
+        """Fails if the gap behind which a contact lets go is reported as it is behind the curve's map, and not as it is
+        at the tool; or if another reason than the curve is given for a force without a bound."""
         flat = {"dashpot": 1, "name": "flat", "network": {"spring": "100 N/m"}, "contact": {"at": "0 mm"}}
         hertz = {**flat, "name": "hertz", "static": {"power": 1.5, "force": "1 N", "at": "5 mm"}}
         gaps = []

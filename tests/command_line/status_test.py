@@ -74,7 +74,8 @@ class Check(CommandTest):
 
 
     def test_a_surface_beyond_reach(self):
-        """Fails if a surface that the tool can never touch is compiled in silence, or one within reach is warned of."""
+        """Fails if a surface that the tool can never touch is compiled without a warning, or one within reach is warned
+        of."""
         self.write("slide.json", LINEAR_DEVICE)
         for at, warned in [("150 mm", True), ("90 mm", False)]:
             self.write("tissue.json", '{ "dashpot": 1, "name": "tissue", "contact": { "at": "%s" }, "network": { "spring": "5 N/m" } }' % at)
@@ -158,7 +159,7 @@ class WrongCommandLine(CommandTest):
         self.assertEqual(self.files(), [])
 
     def test_of_a_board_that_is_to_be_simulated(self):
-        """Fails if a choice that only the simulated device has is dropped in silence where a board is driven."""
+        """Fails if a choice that only the simulated device has is dropped without a warning where a board is driven."""
         for option in [["--fast"], ["--hand", "relaxed"], ["--seed", "0"]]:
             done = self.refused("run", FIG_5, "--device", PANTOGRAPH, "--port", "unix:absent.sock", "--for", "1", *option,
                                 code="simulated-device-only", status=COMMAND_LINE_WRONG)
@@ -206,7 +207,8 @@ class RefusedInput(CommandTest):
         self.assertEqual(codes(self.dashpot("check", "fast.json").stderr), ["fast-relaxation"])
 
     def test_fast_relaxations_are_counted(self):
-        """Fails if relaxations that a loop is too slow for are told otherwise than the fastest, and how many they are."""
+        """Fails if relaxations that a loop is too slow for are reported otherwise than by the fastest, and how many
+        they are."""
         for count in (1, 2, 3):
             branches = ", ".join(f'{{ "series": [ {{ "spring": 1e6 }}, {{ "damper": {10**i} }} ] }}' for i in range(count))
             self.write("fast.json", network(f'{{ "parallel": [ {branches} ] }}'))

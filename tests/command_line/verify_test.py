@@ -225,7 +225,8 @@ class Verify(CommandTest):
             self.verify(header[:version.start(1)] + "0.0.77" + header[version.end(1):], certificate, "elsewhere")
 
     def test_what_is_not_certified(self):
-        """Fails if a sound header of a law that is not certified passes unasked, or passes for certified; or its missing damping is not told."""
+        """Fails if a sound header of a law that is not certified passes unasked, or passes for certified; or its
+        missing damping is not reported."""
         self.write("kelvin.json", KELVIN)
         bare = json.loads(BOARD.read_text())
         bare["velocity"] = {"estimator": "super_twisting", "acceleration": "50 m/s^2"}
@@ -295,7 +296,7 @@ class Verify(CommandTest):
                         status=INPUT_REFUSED)
 
     def test_another_device(self):
-        """Fails if a header passes that tells the servo loop of another device, or says more in that line."""
+        """Fails if a header passes that names another device to the servo loop, or says more in that line."""
         header, certificate = self.emitted([FIG_5, "--device", BOARD], "law")
         digest = re.search(r'device_digest = "[0-9a-f]+";', header).group()
         for i, other in enumerate(['device_digest = "0123456789abcdef";', digest + " int impostor;"]):
@@ -463,7 +464,7 @@ class Verify(CommandTest):
         self.assertGreaterEqual(refused, 18)
 
     def test_messages_name_a_constant_as_the_header_does(self):
-        """Fails if a wrong constant is told without its port's name, or the place of a list without the list."""
+        """Fails if a wrong constant is reported without its port's name, or the place of a list without the list."""
         ports = [{"name": "left", "network": {"parallel": [{"spring": 5}, {"series": [{"slip": 2}, {"spring": 11}]}]}},
                  {"name": "right", "network": {"spring": 7}}]
         self.write("two.json", json.dumps({"name": "two", "dashpot": 1, "ports": ports}))
@@ -679,8 +680,8 @@ class Certified(CommandTest):
         self.assertGreater(compiled, 10 if IS_LONG else 4)
 
     def test_what_a_device_file_would_have_to_say(self):
-        """Fails if what a note tells to write into a device file does not do there: a stronger brake at a joint, more damping of the
-        device itself, and a loop that is not late."""
+        """Fails if what a note says to write into a device file does not do there: a stronger brake at a joint, more
+        damping of the device itself, and a loop that is not late."""
         def compiled(device, net, status=0):
             self.write("device.json", json.dumps(device))
             return self.dashpot("compile", net, "--device", "device.json", status=status).stderr

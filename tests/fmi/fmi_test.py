@@ -318,7 +318,8 @@ class Units(unittest.TestCase):
             self.assertEqual(unit.get("position", "force"), (0, 0))
 
     def test_instances(self):
-        """Fails if a unit is made with a foreign token or for another use, if places run out in silence, or one is lost when freed."""
+        """Fails if a unit is made with a foreign token or for another use, if places run out without a warning, or one
+        is lost when freed."""
         for name, fmu in self.each_unit():
             for more in [{"token": "other"}, {"kind": "ModelExchange"}]:
                 refused = self.instance(fmu, **more)

@@ -174,8 +174,8 @@ class InTree(Consumer, unittest.TestCase):
 
 
 class InTreeWithCompiler(unittest.TestCase):
-    """dashpot as a subdirectory of the user's project, where nothing is built yet. What would be built is told, not built:
-    the very commands that have built this compiler."""
+    """dashpot as a subdirectory of the user's project, where nothing is built yet. What would be built is named, not
+    built: the very commands that have built this compiler."""
 
     # Those of the outer build, so that commands can be compared.
     CHOICES = ["CMAKE_BUILD_TYPE", "CMAKE_CXX_COMPILER_LAUNCHER", "CMAKE_CXX_FLAGS", "CMAKE_CXX_FLAGS_DEBUG",
@@ -191,7 +191,7 @@ class InTreeWithCompiler(unittest.TestCase):
         cls.project = Project(folder.name, [f"-DDASHPOT_SOURCE={SOURCE}", *(f"-D{choice}" for choice in chosen)])
 
     def commands(self, build_folder, within):
-        """What compiles and links the compiler, in words that do not tell where."""
+        """What compiles and links the compiler, in words that do not say where."""
         listed = subprocess.run(["ninja", "-C", str(build_folder), "-t", "commands", f"{within}compiler/dashpot"],
                                 capture_output=True, text=True, check=True).stdout
         here = f"{build_folder}/{within}".rstrip("/")

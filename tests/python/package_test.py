@@ -206,7 +206,7 @@ class Refusals(PackageTest):
         self.assertEqual([path.name for path in self.folder.iterdir()], ["file"])
 
     def test_options(self):
-        """Fails if an option that the target has nothing for passes in silence."""
+        """Fails if an option that the target has nothing for passes without a message."""
         for option in [["--batch"], ["--constant-time"], ["--with-test"], ["--certificate", str(self.folder / "c.json")]]:
             self.assertIn(f"--target python knows no {option[0]}", self.refused(FIG_5, *option, code="target", status=2))
 

@@ -230,7 +230,8 @@ class Refusals(WasmTest):
         self.assertFalse((self.folder / "out").exists())
 
     def test_package(self):
-        """Fails if the package has other files than it says, or an option that it has nothing for passes in silence."""
+        """Fails if the package has other files than it says, or an option that it has nothing for passes without a
+        message."""
         self.dashpot("compile", FIG_5, "--target", "wasm", "-o", self.folder)
         package = self.folder / "second_order_maxwell"
         self.assertEqual(sorted(path.name for path in package.iterdir()),

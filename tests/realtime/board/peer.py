@@ -96,7 +96,7 @@ class Decoder:
                 yield whole[3], struct.unpack_from("<I", whole, 5)[0], whole[9:-2]
 
     def size_of_first(self):
-        """Bytes of the frame that begins here, as far as can be told; None where none does."""
+        """Bytes of the frame that begins here, as far as one can tell; None where none does."""
         head = self.buffer
         if not b"\x64\x70".startswith(head[:2]):
             return None

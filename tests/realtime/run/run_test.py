@@ -66,7 +66,8 @@ class Run(unittest.TestCase):
             self.assertAlmostEqual(float(row["motor_force [N]"]), made, delta=1e-12)
 
     def test_a_value_from_the_command_line(self):
-        """Fails if --set does not reach the law that drives the device, or if the energy is told without whose it is."""
+        """Fails if --set does not reach the law that drives the device, or if the energy is reported without whose it
+        is."""
         result = self.run_fast("paper/kelvin", "phantom_shorted_motor", "--set", "K=250")
         self.assertRegex(result.stdout, r"energy +[-0-9.e]+ J that motor and brake took from the tool")
         with open(self.log, newline="") as stream:
@@ -92,7 +93,8 @@ class Run(unittest.TestCase):
             self.assertEqual(first.read(), second.read())
 
     def test_what_is_not_certified_is_said_before_it_is_driven(self):
-        """Fails if a law that its device may not hold is driven in silence, or one that it holds is warned of."""
+        """Fails if a law that its device may not hold is driven without a warning, or one that it holds is warned
+        of."""
         for network_name, device_name, code in [("paper/kelvin", "phantom_single_motor", "drives-uncertified"), ("paper/virtual_wall", "pantograph_brake_2009", "nothing-proved"),
                                                 ("paper/kelvin", "board_mps2", None)]:
             told = self.run_fast(network_name, device_name).stderr
@@ -224,7 +226,7 @@ class Run(unittest.TestCase):
             self.assertEqual(os.listdir(work), [])
 
     def test_log_that_cannot_be_written(self):
-        """Fails if a log that a full disk cuts off is told to people only, or named as if it were whole."""
+        """Fails if a log that a full disk cuts off is reported to people only, or named as if it were whole."""
         result = self.run_fast("paper/kelvin", "phantom_shorted_motor", "--diagnostics", "json", log="/dev/full")
         self.assertEqual(result.returncode, 1)
         errors = [told for told in json.loads(result.stderr[result.stderr.index("["):]) if told["severity"] == "error"]

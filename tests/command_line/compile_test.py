@@ -206,6 +206,8 @@ class Files(CommandTest):
                       ["compile", "kelvin.json", "--device", single, "--uncertified"],
                       ["compile", *field],
                       ["check", "kelvin.json", "--device", single],
+                      ["run", "kelvin.json", "--device", single, "--fast", "--for", "0.01"],
+                      ["report", FIG_5, "--device", PANTOGRAPH, "--decomposition", "paper", "-o", "page.html"],
                       ["explain", FIG_5, "--device", PANTOGRAPH, "--decomposition", "paper"],
                       ["explain", "kelvin.json", "--device", single]]:  # says which commands do
             with self.subTest(words=words):

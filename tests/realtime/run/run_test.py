@@ -18,8 +18,13 @@ import unittest
 ARGUMENTS = None
 
 
+def command(*words):
+    """Without the search for what would help, which takes longer than a run and has its own tests."""
+    return [ARGUMENTS.dashpot, *words, *(["--no-advice"] if words[0] == "run" else [])]
+
+
 def dashpot(*words, environment=None, folder=None):
-    return subprocess.run([ARGUMENTS.dashpot, *words], capture_output=True, text=True, cwd=folder,
+    return subprocess.run(command(*words), capture_output=True, text=True, cwd=folder,
                           env={**os.environ, **(environment or {})}, timeout=300)
 
 
@@ -113,7 +118,7 @@ class Run(unittest.TestCase):
         path = os.path.join(self.folder.name, "patient.json")
         with open(path, "w") as stream:
             json.dump(patient, stream)
-        process = subprocess.Popen([ARGUMENTS.dashpot, "run", network("paper/kelvin"), "--device", path, "--log", self.log],
+        process = subprocess.Popen(command("run", network("paper/kelvin"), "--device", path, "--log", self.log),
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         first = process.stdout.readline()  # the loop is running from here on
         self.assertIn("Hz", first)
@@ -124,8 +129,8 @@ class Run(unittest.TestCase):
 
     def test_nobody_reads_along(self):
         """Fails if the end of whoever reads what `run` prints ends the program before the device has the safe command."""
-        process = subprocess.Popen([ARGUMENTS.dashpot, "run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"),
-                                    "--for", "3", "--fast", "--log", self.log], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(command("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"),
+                                    "--for", "3", "--fast", "--log", self.log), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         process.stdout.close()
         errors = process.stderr.read()
         process.stderr.close()
@@ -141,8 +146,8 @@ class Run(unittest.TestCase):
             script.write("#!/bin/sh\nexec sleep 300\n")
         os.chmod(slow, 0o755)
         os.mkdir(temporary)
-        process = subprocess.Popen([ARGUMENTS.dashpot, "run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"),
-                                    "--for", "1", "--fast", "--log", self.log], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        process = subprocess.Popen(command("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"),
+                                    "--for", "1", "--fast", "--log", self.log), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                    start_new_session=True, env={**os.environ, "CXX": slow, "TMPDIR": temporary})
         while not glob.glob(os.path.join(temporary, "*", "compiler.log")):  # there as soon as the compiler is
             self.assertIsNone(process.poll())
@@ -195,7 +200,7 @@ class Run(unittest.TestCase):
         self.assertEqual(peer.stdout.readline(), "left with torque 0, damping 5\n")
 
     def start_on(self, port, *more, **how):
-        return subprocess.Popen([ARGUMENTS.dashpot, "run", network("paper/kelvin"), "--device", device("board_mps2"), "--port", port, *more],
+        return subprocess.Popen(command("run", network("paper/kelvin"), "--device", device("board_mps2"), "--port", port, *more),
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **how)
 
     def test_compiler_that_fails_is_told_and_nothing_is_written(self):
@@ -303,8 +308,8 @@ class Run(unittest.TestCase):
     def test_interrupt_leaves_the_board_safe(self):
         """Fails if after Ctrl-C the board itself does not have the safe command, whatever `run` says."""
         peer, port = self.start_peer()
-        process = subprocess.Popen([ARGUMENTS.dashpot, "run", network("paper/kelvin"), "--device", device("board_mps2"),
-                                    "--port", port, "--log", self.log],
+        process = subprocess.Popen(command("run", network("paper/kelvin"), "--device", device("board_mps2"),
+                                    "--port", port, "--log", self.log),
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         for _ in range(2):  # the second line comes after a second of running
             self.assertIn("Hz", process.stdout.readline())

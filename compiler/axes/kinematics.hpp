@@ -69,7 +69,8 @@ FiveBar<S> five_bar(const Arm& arm, const Pair<S>& q, const Pair<S>& tip) {
   return {{left, right}, {first, second}, tip, S(1) / dot(turned(first), second)};
 }
 
-// d_i·tip′ = d_i·E_i′ for the elbows E_i: of the two rows d_i the inverse is turned.
+// The tip's motion tip′ of which d_0·tip′ is `first` and d_1·tip′ `second`, with d_i the distal links. These keep their
+// lengths, so that d_i·tip′ is d_i·E_i′ of the elbow E_i where the link begins. By Cramer's rule.
 template <typename S>
 Pair<S> solve_distal(const FiveBar<S>& bar, const S& first, const S& second) {
   return (bar.reciprocal * first) * turned(S(-1) * bar.distal[1]) + (bar.reciprocal * second) * turned(bar.distal[0]);

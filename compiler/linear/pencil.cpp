@@ -76,13 +76,16 @@ class Band {
   void reduce(const RealMatrix& l) {
     for (Index k = 0; k < size_; ++k) {
       const Index first = std::max(Index{0}, k - width_), last = std::min(k + width_, size_ - 1) - width_ - 1;
-      // Of row k, one place alone shall spread. What a rotation puts outside of the band goes up along it and out.
+      // The division by column k of L spreads row k over as many rows as the band is wide. Those of its entries that
+      // would land outside of the band, in columns `first` to `last`, are gathered in column `last` before. Each
+      // rotation makes an entry outside of the band, which others move up along it until it leaves the matrix.
       for (Index j = first; j < last; ++j) {
         turn_right(k, j);
         for (Index above = j - width_; above >= 0; above -= width_) turn_right(above + width_ + 1, above);
       }
       divide_by(l, k);
-      // Now each column from `first` to `last` has one place outside of the band: they go up together, as waves.
+      // Now each of these columns has one entry outside of the band. All are moved up along it together, by one width
+      // at a time, until they leave the matrix.
       for (Index up = 0; up <= last; up += width_)
         for (Index j = last; j >= std::max(first, up); --j) turn_right(j - up + width_ + 1, j - up);
     }

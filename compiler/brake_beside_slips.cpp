@@ -118,7 +118,7 @@ class BesideSearch {
     double best = at->beside.damping, least = at->option.error;
     const auto here = static_cast<std::size_t>(at - line.places.begin());
     for (std::size_t i = here > 0 ? here - 1 : 0; i <= here && i + 1 < line.places.size(); ++i) {
-      const LeastPlace found = golden_section(error_after(line, i), 0, 1, 0, closely);
+      const ValueAt found = golden_section(error_after(line, i), 0, 1, 0, closely);
       if (found.value >= least) continue;
       least = found.value;
       best = damping_at(line, i, found.place);
@@ -142,7 +142,7 @@ class BesideSearch {
     for (std::size_t i = line.places.size() - 1; i-- > 0;) {
       if (is_allowed(line.places[i + 1].option, choice)) return;
       const auto here = error_after(line, i);
-      const LeastPlace least = golden_section(here, 0, 1, allowed, closely);
+      const ValueAt least = golden_section(here, 0, 1, allowed, closely);
       const bool is_inside = least.value <= allowed;
       if (!is_inside && line.places[i].option.error > allowed) continue;
       const double inside = is_inside ? least.place : 0;

@@ -10,7 +10,7 @@ namespace dashpot::compiler {
 
 inline constexpr int most_search_steps = 150;  // reached only by an answer of 0, to which no relative precision applies
 
-struct LeastPlace {
+struct ValueAt {
   double place;
   double value;
 };
@@ -34,8 +34,8 @@ inline double least_by_chords(double low, double at_low, double left, double at_
 // Searches for the minimum of a convex function within (low, high) by golden section; stops as soon as a value is at
 // most `enough`, or as soon as it is clear that none is at most a level of interest.
 template <class Function>
-LeastPlace golden_section(Function f, double low, double high, double enough, double precision,
-                          std::optional<OfInterest> ask = std::nullopt) {
+ValueAt golden_section(Function f, double low, double high, double enough, double precision,
+                       std::optional<OfInterest> ask = std::nullopt) {
   constexpr double clearly = 1e-3;  // above the level, of what the values found are above it: more than they are off
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double left = high - golden * (high - low), right = low + golden * (high - low);
@@ -56,7 +56,7 @@ LeastPlace golden_section(Function f, double low, double high, double enough, do
       right = low + golden * (high - low), at_right = f(right);
     }
   }
-  return at_left < at_right ? LeastPlace{left, at_left} : LeastPlace{right, at_right};
+  return at_left < at_right ? ValueAt{left, at_left} : ValueAt{right, at_right};
 }
 
 // The last place towards `fails` where the claim is true, which is true at `holds`.
@@ -71,12 +71,13 @@ double boundary(Claim claim, double holds, double fails, double precision) {
   return holds;
 }
 
-// boundary() of f ≤ level for a convex function that takes long: chords soon find two places on either side of the
-// answer, next to it but for the digits that rounding decides. What these tell is then not asked for again.
+// boundary() of f ≤ level for a convex function that takes long, from two values of it: chords soon find two places on
+// either side of the answer, next to it but for the digits that rounding decides. What these tell is then not asked for
+// again.
 template <class Function>
-double level_boundary(Function f, double level, double holds, double fails, double precision) {
+double level_boundary(Function f, double level, ValueAt holds, ValueAt fails, double precision) {
   constexpr double next_to = 30;  // precisions
-  double inside = holds, outside = fails, below = f(holds) - level, above = f(fails) - level;
+  double inside = holds.place, outside = fails.place, below = holds.value - level, above = fails.value - level;
   bool was_inside = false, was_outside = false;
   for (int i = 0; i < most_search_steps; ++i) {
     if (std::abs(outside - inside) <= next_to * precision * std::max(inside, outside)) break;
@@ -92,12 +93,12 @@ double level_boundary(Function f, double level, double holds, double fails, doub
     if (!is_inside && was_outside) below /= 2;
     was_inside = is_inside, was_outside = !is_inside;
   }
-  const double way = holds < fails ? 1 : -1;
+  const double way = holds.place < fails.place ? 1 : -1;
   const auto claim = [&](double x) {
     if (way * x <= way * inside) return true;
     return way * x < way * outside && f(x) <= level;
   };
-  return boundary(claim, holds, fails, precision);
+  return boundary(claim, holds.place, fails.place, precision);
 }
 
 }  // namespace dashpot::compiler

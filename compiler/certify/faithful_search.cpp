@@ -23,7 +23,7 @@ struct Ends {
 // The least of a convex function, its ends included; left as soon as a value is at most `enough`.
 template <class Function>
 double least_place(Function f, Ends span, double enough, double precision = closely) {
-  LeastPlace best = golden_section(f, span.low, span.high, enough, precision);
+  ValueAt best = golden_section(f, span.low, span.high, enough, precision);
   for (const double end : {span.low, span.high})
     if (best.value > enough)
       if (const double there = f(end); there < best.value) best = {end, there};
@@ -33,18 +33,17 @@ double least_place(Function f, Ends span, double enough, double precision = clos
 // Where a convex function is at most `level`; empty where it is above it everywhere.
 template <class Function>
 std::optional<Ends> sublevel(Function f, Ends span, double level, double precision = exactly) {
-  const double at_low = f(span.low), at_high = f(span.high);
-  const bool low = at_low <= level, high = at_high <= level;
-  if (low && high) return span;
-  double inside = low ? span.low : span.high;
-  if (!low && !high) {
-    const LeastPlace least =
-        golden_section(f, span.low, span.high, level, std::max(precision, closely), OfInterest{level, at_low, at_high});
-    if (!(least.value <= level)) return std::nullopt;
-    inside = least.place;
+  const ValueAt low{span.low, f(span.low)}, high{span.high, f(span.high)};
+  const bool is_low = low.value <= level, is_high = high.value <= level;
+  if (is_low && is_high) return span;
+  ValueAt inside = is_low ? low : high;
+  if (!is_low && !is_high) {
+    inside = golden_section(f, span.low, span.high, level, std::max(precision, closely),
+                            OfInterest{level, low.value, high.value});
+    if (!(inside.value <= level)) return std::nullopt;
   }
-  return Ends{low ? span.low : level_boundary(f, level, inside, span.low, precision),
-              high ? span.high : level_boundary(f, level, inside, span.high, precision)};
+  return Ends{is_low ? span.low : level_boundary(f, level, inside, low, precision),
+              is_high ? span.high : level_boundary(f, level, inside, high, precision)};
 }
 
 // One state input with all that is asked of it at one b.
@@ -128,9 +127,9 @@ class CertifiedPart {
     double best = places_.front().damping, least = unbounded;
     for (const Chord& chord : chords()) {
       const auto on_chord = [&](double s) { return error(chord, s); };
-      const LeastPlace ends[] = {{0, on_chord(0)}, {1, on_chord(1)}};
-      LeastPlace here = golden_section(on_chord, 0, 1, 0, closely, OfInterest{least, ends[0].value, ends[1].value});
-      for (const LeastPlace& end : ends)
+      const ValueAt ends[] = {{0, on_chord(0)}, {1, on_chord(1)}};
+      ValueAt here = golden_section(on_chord, 0, 1, 0, closely, OfInterest{least, ends[0].value, ends[1].value});
+      for (const ValueAt& end : ends)
         if (end.value < here.value) here = end;
       if (here.value < least) least = here.value, best = chord.dampings.at(here.place);
     }

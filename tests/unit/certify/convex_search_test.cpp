@@ -50,14 +50,15 @@ TEST(LevelBoundary, IsThatOfBisectionAndAsksForLess) {
   int compared = 0, asked = 0, by_bisection = 0;
   for (unsigned seed = 1; seed <= 400; ++seed) {
     Convex f(seed);
-    const LeastPlace least = golden_section(std::ref(f), low, high, 0, 1e-10);
+    const ValueAt least = golden_section(std::ref(f), low, high, 0, 1e-10);
     for (const double end : {low, high}) {
-      const double level = least.value + f.within(0, 0.9) * (f(end) - least.value);
-      if (!(f(least.place) <= level && f(end) > level)) continue;
+      const ValueAt fails{end, f(end)};
+      const double level = least.value + f.within(0, 0.9) * (fails.value - least.value);
+      if (!(least.value <= level && fails.value > level)) continue;
       f.asked = 0;
       const double plain = boundary([&](double x) { return f(x) <= level; }, least.place, end, precision);
       by_bisection += f.asked, f.asked = 0;
-      const double found = level_boundary(std::ref(f), level, least.place, end, precision);
+      const double found = level_boundary(std::ref(f), level, least, fails, precision);
       asked += f.asked;
       EXPECT_NEAR(found, plain, 2 * precision * std::max(found, plain)) << seed << ", " << end;
       ++compared;
@@ -70,8 +71,8 @@ TEST(LevelBoundary, IsThatOfBisectionAndAsksForLess) {
 // Fails if an end at which nothing is proved, an infinite value, spoils the chords.
 TEST(LevelBoundary, MayFailAtAnInfiniteValue) {
   const auto f = [](double x) { return x < 1.5 ? x * x : std::numeric_limits<double>::infinity(); };
-  EXPECT_NEAR(level_boundary(f, 2, 0, 4, precision), std::sqrt(2.0), 1e-13);
-  EXPECT_NEAR(level_boundary(f, 100, 0, 4, precision), 1.5, 1e-13);
+  EXPECT_NEAR(level_boundary(f, 2, {0, f(0)}, {4, f(4)}, precision), std::sqrt(2.0), 1e-13);
+  EXPECT_NEAR(level_boundary(f, 100, {0, f(0)}, {4, f(4)}, precision), 1.5, 1e-13);
 }
 
 // Fails if the search gives up a level that is reached, or goes on where the chords tell that it is not.
@@ -80,7 +81,7 @@ TEST(GoldenSection, GivesUpALevelThatIsNotReachedAndNoOther) {
   int given_up = 0, asked = 0, to_the_end = 0;
   for (unsigned seed = 1; seed <= 400; ++seed) {
     Convex f(seed);
-    const LeastPlace least = golden_section(std::ref(f), low, high, 0, fine);
+    const ValueAt least = golden_section(std::ref(f), low, high, 0, fine);
     const double at_low = f(low), at_high = f(high), room = std::min(at_low, at_high) - least.value;
     if (!(room > 1e-3)) continue;
     for (const double above : {1e-6, 1e-3, 0.5}) {

@@ -440,10 +440,11 @@ class StorageSearch {
   // Nothing where that would be `most` or more.
   std::optional<StorageProof> longest_for_all(double most) const {
     constexpr double first_tried = 1e-4, most_tried = 100;  // beyond the supremum, relative to it
-    double fails = 0, serves = first_tried;
-    std::optional<StorageProof> best = longest_for_all_at(serves);
-    for (; !best && serves < most_tried && supremum_ * (1 + serves) < most; best = longest_for_all_at(serves))
-      fails = serves, serves *= 2;
+    const auto next = [&] { return longest_fails_ > 0 ? 2 * longest_fails_ : first_tried; };
+    std::optional<StorageProof> best;
+    while (!best && longest_fails_ < most_tried && supremum_ * (1 + longest_fails_) < most)
+      if (best = longest_for_all_at(next()); !best) longest_fails_ = next();
+    double fails = longest_fails_, serves = next();
     for (int i = 0; i < 3 && best && fails > 0; ++i) {
       const double middle = std::sqrt(fails * serves);
       if (std::optional<StorageProof> less = longest_for_all_at(middle)) best = std::move(less), serves = middle;
@@ -552,6 +553,7 @@ class StorageSearch {
   std::optional<StateScales<double>> scales_;
   mutable std::optional<StateScales<Real>> scales_in_digits_;                 // when first asked for
   mutable std::vector<std::pair<OneHold<double>, Recursion<double>>> holds_;  // all that differ, when first asked for
+  mutable double longest_fails_ = 0;  // beyond the supremum, relative to it: where longest_for_all() last found nothing
 };
 
 // Empty where the estimator's coefficients, as rounded, are not what the checker derives.

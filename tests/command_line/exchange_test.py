@@ -89,7 +89,8 @@ class Exchange(CommandTest):
             self.expect_close(form(self, f"{name}.json"), given, 1e-12, name)
 
     def test_forms_that_there_are_not(self):
-        """Fails if a network with slips, or one with a damper at the tool, is exported in a form that it does not have."""
+        """Fails if a network with slips, or one with a damper at the tool, is exported in a form that it does not
+        have."""
         self.write("slip.json", network('{ "series": [ { "slip": 1 }, { "spring": 3 } ] }'))
         self.refused("explain", "slip.json", "--as", "kelvin", code="no-linear-form")
         self.write("kelvin.json", KELVIN)

@@ -123,7 +123,8 @@ class Pages(unittest.TestCase):
         return path
 
     def written(self, network, *choices, **environment):
-        """Has dashpot write the page, without the search for what would help; returns where it is, and what was said."""
+        """Has dashpot write the page, without the search for what would help; returns where it is, and what was
+        said."""
         page = self.folder / "report.html"
         done = subprocess.run([DASHPOT, "report", str(network), *map(str, choices), "--no-advice", "-o", str(page)],
                               capture_output=True, text=True, timeout=120, env={**os.environ, **environment})

@@ -130,7 +130,8 @@ class Run(unittest.TestCase):
     def test_nobody_reads_along(self):
         """Fails if the end of whoever reads what `run` prints ends the program before the device has the safe command."""
         process = subprocess.Popen(command("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"),
-                                    "--for", "3", "--fast", "--log", self.log), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                                           "--for", "3", "--fast", "--log", self.log),
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         process.stdout.close()
         errors = process.stderr.read()
         process.stderr.close()
@@ -147,7 +148,8 @@ class Run(unittest.TestCase):
         os.chmod(slow, 0o755)
         os.mkdir(temporary)
         process = subprocess.Popen(command("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"),
-                                    "--for", "1", "--fast", "--log", self.log), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                           "--for", "1", "--fast", "--log", self.log),
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                    start_new_session=True, env={**os.environ, "CXX": slow, "TMPDIR": temporary})
         while not glob.glob(os.path.join(temporary, "*", "compiler.log")):  # there as soon as the compiler is
             self.assertIsNone(process.poll())
@@ -200,7 +202,8 @@ class Run(unittest.TestCase):
         self.assertEqual(peer.stdout.readline(), "left with torque 0, damping 5\n")
 
     def start_on(self, port, *more, **how):
-        return subprocess.Popen(command("run", network("paper/kelvin"), "--device", device("board_mps2"), "--port", port, *more),
+        return subprocess.Popen(command("run", network("paper/kelvin"), "--device", device("board_mps2"),
+                                        "--port", port, *more),
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **how)
 
     def test_compiler_that_fails_is_told_and_nothing_is_written(self):

@@ -36,7 +36,9 @@ inline double least_by_chords(double low, double at_low, double left, double at_
 template <class Function>
 ValueAt golden_section(Function f, double low, double high, double enough, double precision,
                        std::optional<OfInterest> ask = std::nullopt) {
-  constexpr double clearly = 1e-3;  // above the level, of what the values found are above it: more than they are off
+  // The search gives up where the lower bound exceeds the level by this share of what the smaller value exceeds it by:
+  // errors of the values are smaller than that.
+  constexpr double clearly = 1e-3;
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double left = high - golden * (high - low), right = low + golden * (high - low);
   double at_left = f(left), at_right = f(right);
@@ -71,16 +73,16 @@ double boundary(Claim claim, double holds, double fails, double precision) {
   return holds;
 }
 
-// boundary() of f ≤ level for a convex function that takes long, from two values of it: chords soon find two places on
-// either side of the answer, next to it but for the digits that rounding decides. What these tell is then not asked for
-// again.
+// boundary() of f ≤ level, for a convex function that takes long to evaluate, from two of its values. Chords first find
+// two places close to the answer, one on either side. The same bisection then follows, and evaluates f only between
+// these two.
 template <class Function>
 double level_boundary(Function f, double level, ValueAt holds, ValueAt fails, double precision) {
-  constexpr double next_to = 30;  // precisions
+  constexpr double close = 30;  // in multiples of the precision; nearer to the answer rounding decides
   double inside = holds.place, outside = fails.place, below = holds.value - level, above = fails.value - level;
   bool was_inside = false, was_outside = false;
   for (int i = 0; i < most_search_steps; ++i) {
-    if (std::abs(outside - inside) <= next_to * precision * std::max(inside, outside)) break;
+    if (std::abs(outside - inside) <= close * precision * std::max(inside, outside)) break;
     const double middle = (inside + outside) / 2, chord = (inside * above - outside * below) / (above - below);
     const bool is_between = std::min(inside, outside) < chord && chord < std::max(inside, outside);
     const double next = is_between && i % 4 < 3 ? chord : middle;
@@ -89,7 +91,7 @@ double level_boundary(Function f, double level, ValueAt holds, ValueAt fails, do
     const bool is_inside = there <= 0;
     if (is_inside) inside = next, below = there;
     else outside = next, above = there;
-    if (is_inside && was_inside) above /= 2;  // the other end stayed: its chord is drawn nearer (Illinois)
+    if (is_inside && was_inside) above /= 2;  // an end that stays twice counts half, so that it moves (Illinois method)
     if (!is_inside && was_outside) below /= 2;
     was_inside = is_inside, was_outside = !is_inside;
   }

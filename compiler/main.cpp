@@ -507,9 +507,16 @@ std::vector<std::string> with_help_as_option(std::vector<std::string> arguments)
   return arguments;
 }
 
-// Of what stands where a command should; empty where it is one, or an option.
-std::string complaint_about_command(const std::vector<std::string>& arguments) {
-  if (arguments.empty() || arguments[0].starts_with('-')) return "";
+// Without a value that follows behind '='.
+std::string option_of(const std::string& argument) { return argument.substr(0, argument.find('=')); }
+
+// Of what stands where a command should; empty where it is one, or an option that needs none.
+std::string complaint_about_command(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return "";
+  if (const std::string option = option_of(arguments[0]); option.starts_with('-'))
+    return app.get_option_no_throw(option) != nullptr
+               ? ""
+               : "'" + option + "' stands where a command should; options come after the command\n";
   std::vector<std::string> names;
   for (const auto& [name, command] : commands) names.push_back(name);
   names.insert(names.end(), {command_of_completion, command_of_manual});
@@ -519,8 +526,8 @@ std::string complaint_about_command(const std::vector<std::string>& arguments) {
          (nearest ? "; '" + *nearest + "' is the nearest" : "; commands are " + CLI::detail::join(names, ", ")) + "\n";
 }
 
-// Of the first option that the command does not have; empty where it has them all. The parser would tell of it too, but
-// name none that is like it, and complain first of the value behind it.
+// Of the first option that the command does not have, or that has a value and takes none; empty if there is none. The
+// parser would name no option that is like it, complain first of the value behind it, and let --batch=true pass.
 std::string complaint_about_option(const CLI::App& app, const std::vector<std::string>& arguments) {
   const auto is_named = [&](const CLI::App* command) { return command->get_name() == arguments.front(); };
   const auto found = arguments.empty() ? std::vector<const CLI::App*>() : app.get_subcommands(is_named);
@@ -529,10 +536,12 @@ std::string complaint_about_option(const CLI::App& app, const std::vector<std::s
   for (const CLI::Option* option : found.front()->get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
-    const std::string name = arguments[i].substr(0, arguments[i].find('='));
+    const std::string name = option_of(arguments[i]);
     const CLI::Option* option = name.starts_with('-') ? found.front()->get_option_no_throw(name) : nullptr;
     const bool takes_next = option != nullptr && option->get_items_expected_min() > 0 && name == arguments[i];
     if (takes_next) ++i;
+    if (option != nullptr && option->get_items_expected_max() == 0 && name != arguments[i])
+      return "'" + name + "' takes no value\n";
     if (option != nullptr || !name.starts_with("--")) continue;
     const std::optional<std::string> nearest = nearest_name(name, names);
     return "'" + arguments[0] + "' has no option '" + name + "'" +
@@ -550,7 +559,7 @@ ExitStatus run(const CLI::App& app, const CommandLine& line) {
   if (command == command_of_completion || command == command_of_manual) {
     const std::string text = text_about_itself(app, line);
     if (!text.empty()) status = write_standard_output(text, diagnostics);
-    else std::cerr << complaint_about_command({line.page_about});
+    else std::cerr << complaint_about_command(app, {line.page_about});
     tell(line.options, diagnostics);
     return status;
   }
@@ -573,18 +582,11 @@ bool asks_for_json(const std::vector<std::string>& arguments) {
   return false;
 }
 
-// Where a library's words would be a riddle: of a flag with a value, as in --batch=7.
-std::string in_plain_words(std::string fault) {
-  const std::string riddle = " was given a disallowed flag override";
-  const std::size_t at = fault.find(riddle);
-  return at == fault.npos ? fault : "--" + fault.replace(at, riddle.size(), " takes no value");
-}
-
 // Help and version are asked for; what else ends parsing is a fault of the command line.
 ExitStatus answer(const CLI::App& app, const CLI::ParseError& error, bool in_json) {
   std::ostringstream text, fault;
   if (app.exit(error, text, fault) != 0) {
-    std::cerr << (in_json ? command_line_fault_as_json(in_plain_words(error.what())) : in_plain_words(fault.str()));
+    std::cerr << (in_json ? command_line_fault_as_json(error.what()) : fault.str());
     return ExitStatus::command_line_wrong;
   }
   Diagnostics diagnostics;
@@ -604,7 +606,7 @@ int main(int argc, char** argv) {
   line.options.fit.arguments.assign(argv + 1, argv + argc);
   describe(app, line);
   std::vector<std::string> arguments = with_help_as_option(line.options.fit.arguments);
-  std::string complaint = complaint_about_command(arguments);
+  std::string complaint = complaint_about_command(app, arguments);
   if (complaint.empty()) complaint = complaint_about_option(app, arguments);
   if (!complaint.empty()) {
     if (asks_for_json(arguments)) std::cerr << command_line_fault_as_json(complaint.substr(0, complaint.size() - 1));

@@ -104,6 +104,10 @@ class WrongCommandLine(CommandTest):
         self.wrong("check", FIG_5, "--rat", "5", mentions="'check' has no option '--rat'; '--rate' is the nearest")
         self.wrong("explain", FIG_5, "--devic=arm.json", mentions="'--device' is the nearest")
         self.wrong("run", FIG_5, "--device", PANTOGRAPH, "--duration", "3", mentions="'run' has no option '--duration'")
+        for flag in ("--no-advice=true", "--no-advice="):
+            self.wrong("check", FIG_5, flag, mentions="'--no-advice' takes no value")
+        self.wrong("--rate", "1000", "check", FIG_5,
+                   mentions="'--rate' stands where a command should; options come after the command")
         self.wrong("check", FIG_5, "--decomposition", "papr", mentions="'paper' is the nearest")
         self.wrong("explain", FIG_5, FIG_5)
         self.wrong("simulate", FIG_5, mentions="--input")

@@ -189,19 +189,22 @@ class Chooser {
 
   std::optional<std::vector<ChosenColumn>> run() {
     const std::size_t errors_before = diagnostics_.error_count();
-    for (const ColumnRequest& request : search_.requests) take(request);
-    if (diagnostics_.error_count() > errors_before) return std::nullopt;
-    if (shape_.names.empty() && !has_all()) {
-      ask_for_names();
-      return std::nullopt;
-    }
-    find_missing();
-    if (diagnostics_.error_count() > errors_before) return std::nullopt;
-    if (!has_all()) ask_for_columns();
+    choose();
+    if (needs_answer_) note_answer();
     return diagnostics_.error_count() > errors_before ? std::nullopt : std::optional(chosen_);
   }
 
  private:
+  void choose() {
+    const std::size_t errors_before = diagnostics_.error_count();
+    for (const ColumnRequest& request : search_.requests) take(request);
+    if (diagnostics_.error_count() > errors_before) return;
+    if (shape_.names.empty() && !has_all()) return ask_for_names();
+    find_missing();
+    if (diagnostics_.error_count() > errors_before) return;
+    if (!has_all()) ask_for_columns();
+  }
+
   bool has(Role role) const { return find_column(chosen_, role) != nullptr; }
   bool wants(Role role) const {
     return std::any_of(search_.requests.begin(), search_.requests.end(), [&](auto& r) { return r.role == role; });
@@ -496,7 +499,7 @@ class Chooser {
 
   void ask_for_unit(Role role, const std::string& title) {
     diagnostics_.report<DiagnosticCode::recording_unit_missing>({}, path_, title, rule_of(role).word);
-    note_answer();
+    needs_answer_ = true;
   }
 
   void ask_which(Role role, const std::vector<std::size_t>& found) {
@@ -504,12 +507,12 @@ class Chooser {
     for (const std::size_t i : found) names.push_back("'" + columns_[i].title + "'");
     diagnostics_.report<DiagnosticCode::recording_several_columns>({}, path_, rule_of(role).word,
                                                                    fmt::format("{}", fmt::join(names, ", ")));
-    note_answer();
+    needs_answer_ = true;
   }
 
   void ask_for_names() {
     diagnostics_.report<DiagnosticCode::recording_without_names>({}, path_, shape_.width);
-    note_answer();
+    needs_answer_ = true;
   }
 
   void ask_for_columns() {
@@ -519,14 +522,15 @@ class Chooser {
         is_misfit = true;
     if (is_misfit) {
       diagnostics_.note<DiagnosticCode::recording_unit_remedy>({});
-      return note_answer();
+      needs_answer_ = true;
+      return;
     }
     for (const std::vector<Role>& group : needed()) {
       if (std::any_of(group.begin(), group.end(), [&](Role role) { return has(role); })) continue;
       diagnostics_.report<DiagnosticCode::recording_column_missing>({}, path_, words_of(group));
       const bool has_spare = columns_.size() >= needed().size();
       if (is_force_after_a_step(group, has_spare)) diagnostics_.note<DiagnosticCode::recording_force_after_step>({});
-      else if (has_spare) note_answer();
+      else if (has_spare) needs_answer_ = true;
       else
         diagnostics_.note<DiagnosticCode::recording_too_few_columns>({}, counted(columns_.size(), "column"),
                                                                      words_of_needed());
@@ -575,6 +579,7 @@ class Chooser {
   Diagnostics& diagnostics_;
   std::vector<TableColumn> columns_;
   std::vector<ChosenColumn> chosen_;
+  bool needs_answer_ = false;  // told once, after all that is missing
 };
 
 // NAME, NAME-0.95, -NAME, NAME:kPa

@@ -146,7 +146,8 @@ std::optional<ReadRecording> read(const std::string& text, const std::string& co
   return read_recording(lines, choices, diagnostics);
 }
 
-// Fails if something that is wrong passes, is told in other words or at another place, or without what would do.
+// Fails if something that is wrong passes, is told in other words or at another place, without what would do, or if the
+// command line that would do is told more than once.
 TEST(BrokenRecording, IsToldWithPlaceAndRemedy) {
   const std::vector<BrokenRecording> cases = broken_recordings();
   EXPECT_GE(cases.size(), 60u);
@@ -157,6 +158,7 @@ TEST(BrokenRecording, IsToldWithPlaceAndRemedy) {
     const std::string told = render_text(diagnostics);
     EXPECT_NE(told.find("[" + std::string(broken.code) + "]"), std::string::npos) << told;
     EXPECT_NE(told.find(broken.remedy), std::string::npos) << told;
+    EXPECT_EQ(told.find("this answers it"), told.rfind("this answers it")) << told;
     const std::string place = fmt::format("a.csv:{}:", broken.line);
     EXPECT_TRUE(broken.line == 0 || told.find(place) != std::string::npos) << told;
   }

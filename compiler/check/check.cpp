@@ -24,28 +24,6 @@ Form substituted(const Form& form, const Forms& values) {
   return result;
 }
 Rational of(const Form& form, const std::string& name) { return form.count(name) ? form.at(name) : Rational(0); }
-// The forms of a header's statements, once it has been normalised by `readings`.
-const std::regex declaration(
-    R"((?:scalar|(static constexpr )(?:scalar|unsigned(?= loop_delay = \d+;))) (\w+)(?:\[(\d+)\])? = \{?)");
-const std::regex assignment(R"((const (?:scalar|vector) )?(\w+(?:\[\d+\])?) = |return \{damping, )");
-const std::regex rolled(R"(for \(int i = 0; i < (\d+); i \+= (\d+)\) )"
-                        R"(for \(int j = i; j < i \+ \2; j \+= vector::width\) \{ ([^{}]*)\} )");
-const std::regex word(R"([A-Za-z_]\w*(\[\d+\])?)");
-const std::regex number(R"(-?(?:0|[1-9]\d*)(?:(\.\d*(?:e[-+]?\d+)?|e[-+]?\d+)(f?))?)");
-// Text that computes nothing, nothing in a sample, or nothing as long as samples are finite and no state is small.
-const std::regex frame(
-    R"( ?#pragma once (?:#include <dashpot/\w+\.hpp> )+namespace dashpot::generated \{ class \w+ \{ public: |private: |)"
-    R"(using scalar = (?:double|float); |static constexpr motion port_motion = motion::\w+; |struct certified_for \{ )"
-    R"(static constexpr bool any_device = \w+; (?:static constexpr const char\* (?:device|device_digest|estimator) = ; )*|)"
-    R"(static constexpr bool is_certified = \w+; \}; |struct parameters \{\}; |int \w+_turn_ = 0; |bool sampled_ = false; |)"
-    R"(\}; |\} |using vector = vector<scalar, vector_width<scalar, \d+>, \d+>; |if \(!all_finite\([\w, ]*\)\) )"
-    R"((?:return \{damping, 0\}; |\{ (?:sampled_ = false; )?return \{damping, 0\}; \} )|void reset\(scalar position = 0\) )"
-    R"(\{ (?:static_cast<void>\(position\); |last_position_ = all_finite\(position, position, position\) \? position : 0; ))"
-    R"((?:\w+_ = (?:0|false); |clear\(\w+_\); )*\} |unsigned set\(const parameters&\) \{ return 0; \} |)"
-    R"(scalar \w+\(\) const \{ (?:[^{}]|\{[^{}]*\})*\} |template <int size> static void clear\(volatile scalar )"
-    R"(\(&states\)\[size\]\) \{ for \(int i = 0; i < size; \+\+i\) states\[i\] = 0; \} |)"
-    R"(for \(int j = 0, first = (\w+_)turn_; j < (\d+); j \+= vector::width\) vector::put\(\1, first \+ j, )"
-    R"(\(vector::at\(\1, first \+ j\)\)\); \1turn_ \+= \2; \1turn_ = \1turn_ < \d+ \? \1turn_ : 0; )");
 // How a header is normalised: comments go, blanks become one space, and clamps and flushes become the expressions that
 // are left while the motor is within its limit and nothing is flushed to zero.
 const std::pair<const char*, const char*> readings[] = {
@@ -62,6 +40,7 @@ const std::pair<const char*, const char*> readings[] = {
     {R"(rest_shift_ > 0 \? \(position > 0 \? \(rest_shift_ - position > 0 \? position : rest_shift_\) : no_shift\) : )"
      R"(\(position > 0 \? no_shift : \(rest_shift_ - position > 0 \? rest_shift_ : position\)\))",
      "rest_shift_ + no_shift"}};
+// The forms of a header's statements, once it has been normalised by `readings`.
 struct Header : Program {
   explicit Header(std::string text) {
     if (std::regex_search(text, std::regex(R"(\\\s|\?\?/|\r|/\*)"))) throw Unknown("a remark is not of one line");
@@ -85,6 +64,26 @@ struct Header : Program {
     force = next.extract("").mapped();
   }
   void read_part() {
+    static const std::regex declaration(
+        R"((?:scalar|(static constexpr )(?:scalar|unsigned(?= loop_delay = \d+;))) (\w+)(?:\[(\d+)\])? = \{?)");
+    static const std::regex assignment(R"((const (?:scalar|vector) )?(\w+(?:\[\d+\])?) = |return \{damping, )");
+    static const std::regex rolled(R"(for \(int i = 0; i < (\d+); i \+= (\d+)\) )"
+                                   R"(for \(int j = i; j < i \+ \2; j \+= vector::width\) \{ ([^{}]*)\} )");
+    // Text that computes nothing, nothing in a sample, or nothing as long as samples are finite and no state is small.
+    static const std::regex frame(
+        R"( ?#pragma once (?:#include <dashpot/\w+\.hpp> )+namespace dashpot::generated \{ class \w+ \{ public: |)"
+        R"(private: |using scalar = (?:double|float); |static constexpr motion port_motion = motion::\w+; |struct )"
+        R"(certified_for \{ static constexpr bool any_device = \w+; (?:static constexpr const char\* (?:device|)"
+        R"(device_digest|estimator) = ; )*|static constexpr bool is_certified = \w+; \}; |struct parameters \{\}; |)"
+        R"(int \w+_turn_ = 0; |bool sampled_ = false; |\}; |\} |using vector = vector<scalar, vector_width<scalar, )"
+        R"(\d+>, \d+>; |if \(!all_finite\([\w, ]*\)\) (?:return \{damping, 0\}; |\{ (?:sampled_ = false; )?return )"
+        R"(\{damping, 0\}; \} )|void reset\(scalar position = 0\) \{ (?:static_cast<void>\(position\); |)"
+        R"(last_position_ = all_finite\(position, position, position\) \? position : 0; )(?:\w+_ = (?:0|false); |)"
+        R"(clear\(\w+_\); )*\} |unsigned set\(const parameters&\) \{ return 0; \} |scalar \w+\(\) const \{ (?:[^{}]|)"
+        R"(\{[^{}]*\})*\} |template <int size> static void clear\(volatile scalar \(&states\)\[size\]\) \{ for \(int )"
+        R"(i = 0; i < size; \+\+i\) states\[i\] = 0; \} |for \(int j = 0, first = (\w+_)turn_; j < (\d+); j \+= )"
+        R"(vector::width\) vector::put\(\1, first \+ j, \(vector::at\(\1, first \+ j\)\)\); \1turn_ \+= \2; \1turn_ = )"
+        R"(\1turn_ < \d+ \? \1turn_ : 0; )");
     if (take(frame) || (next["sampled_"] == Form{{"", 1}} && take("if (!sampled_) return; "))) return;
     if (take(rolled)) {
       std::string all;
@@ -124,12 +123,14 @@ struct Header : Program {
     return right.size() == right.count("") ? of(right, "") * left : (refuse(), Form());
   }
   Form factor() {
+    static const std::regex word(R"([A-Za-z_]\w*(\[\d+\])?)");
     if (take(word)) return (next.contains(found_[0]) ? next : others_).at(found_[0]);
     if (!take("(")) return {{"", literal()}};
     const Form value = sum();
     return expect(")"), value;
   }
   Rational literal() {  // as a C++ compiler reads it
+    static const std::regex number(R"(-?(?:0|[1-9]\d*)(?:(\.\d*(?:e[-+]?\d+)?|e[-+]?\d+)(f?))?)");
     const char* const at = left_;
     if (!take(number) || (found_[1].matched && is_float_ != (found_[2].length() > 0))) refuse();
     const double value = is_float_ ? double(std::strtof(at, nullptr)) : std::strtod(at, nullptr);

@@ -354,6 +354,7 @@ class Verify(CommandTest):
         places = [place for place in places if place[0][0] != "storage"] + entries[:: max(1, len(entries) // 8)]
         self.assertGreater(len(places), 80)
         changes = [(path, other) for path, value in places if path[-1] not in free[1] for other in others(value)]
+        changes += [(["version"], 1), (["passivity", "binding_frequency"], "often")]
         changes += [(path, None) for path, _ in places if isinstance(path[-1], str) and path[-1] not in free[1]] + [(["loop", "more"], 1), (["elements", 0, "slip"], 1)]
 
         def accepts(number):

@@ -17,6 +17,7 @@ LINK, DISTAL, BASE = 0.063, 0.075, 0.025  # of PANTOGRAPH [m]
 # A tenth of the area of its workspace, which is searched in a third of the time.
 NEAR = {"x": ["-12 mm", "12 mm"], "y": ["90 mm", "105 mm"]}
 PERIOD = 1e-4
+ADVISING = ("check", "compile", "explain", "report", "run")
 
 # Reads rows of q1, q2, v1, v2 and writes what the law answers; then its energy and what a refused sample gets.
 DRIVER = r"""
@@ -98,9 +99,14 @@ def motion_in_joints(count, seed):
 
 class AxesTest(CommandTest):
 
+    def dashpot(self, *arguments, advice=False, **more):
+        """Without the search for what would help, unless that is asked for."""
+        leave_out = ["--no-advice"] if arguments[0] in ADVISING and not advice else []
+        return super().dashpot(*arguments, *leave_out, **more)
+
     def compile(self, network, *options):
         name = json.loads(network.read_text())["name"]
-        self.dashpot("compile", network, "--uncertified", "--no-advice", *options)
+        self.dashpot("compile", network, "--uncertified", *options)
         self.write("driver.cpp", DRIVER % {"name": name})
         subprocess.run([shutil.which("g++") or "c++", "-std=c++17", "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror",
                         "-I", SOURCE / "runtime/include", "-I", ".", "driver.cpp", "-o", name], cwd=self.folder, check=True)
@@ -368,7 +374,7 @@ class AxesTest(CommandTest):
             text = " ".join(self.dashpot("explain", network, "--device", device).stdout.split())
             self.assertIn("not certified", text)
             self.assertIn(reason, text)
-        refused = self.dashpot("compile", "thick.json", "--device", PANTOGRAPH, status=INPUT_REFUSED).stderr
+        refused = self.dashpot("compile", "thick.json", "--device", PANTOGRAPH, status=INPUT_REFUSED, advice=True).stderr
         self.assertIn("[axes-not-certified]", refused)
         # What the refusal asks for is enough.
         stiff = json.loads(PANTOGRAPH.read_text())
@@ -391,13 +397,13 @@ class AxesTest(CommandTest):
             {"name": "across", "map": {"along": [1, 0]}, "network": {"parallel": [{"spring": "150 N/m"}, {"damper": "1 N s/m"}]}}]}
         self.write("groove.json", json.dumps(network))
 
-        def compiled(limits=None, status=0):
-            for brake, limit in zip(device["brakes"], limits or []):
+        def compiled(limits, status=0, **more):
+            for brake, limit in zip(device["brakes"], limits):
                 brake["max_damping"] = f"{limit} N m s/rad"
             self.write("device.json", json.dumps(device))
-            return self.dashpot("compile", "groove.json", "--device", "device.json", "-o", "out", status=status).stderr
+            return self.dashpot("compile", "groove.json", "--device", "device.json", "-o", "out", status=status, **more).stderr
 
-        refused = compiled([2.5e-3] * len(device["brakes"]), INPUT_REFUSED)
+        refused = compiled([2.5e-3] * len(device["brakes"]), INPUT_REFUSED, advice=True)
         self.assertIn("[axes-not-certified]", refused)
         told = re.search(r"note: brakes of (.*) N m s/rad, in place of .*, would do: ", " ".join(refused.split()))
         limits = [float(limit) for limit in told[1].split(" and ")]
@@ -601,7 +607,7 @@ class AxesTest(CommandTest):
     # If this fails, a loop of one's own has other numbers than the device's file, or takes a law for another's.
     def test_a_device_is_written_as_code(self):
         self.dashpot("device", PANTOGRAPH, "--target", "cpp", "-o", "arm.hpp")
-        self.dashpot("compile", FIELD, "--device", PANTOGRAPH, "--uncertified", "--no-advice")
+        self.dashpot("compile", FIELD, "--device", PANTOGRAPH, "--uncertified")
         self.write("facts.cpp", r"""
 #include "arm.hpp"
 #include "kelvin_field.hpp"

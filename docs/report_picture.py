@@ -20,7 +20,8 @@ with tempfile.TemporaryDirectory() as name:
     page = pathlib.Path(name) / "report.html"
     subprocess.run([sys.argv[1], "report", str(NETWORK), "-o", str(page)], check=True)
     page.write_text(page.read_text().replace("</head>", WITHOUT, 1))
-    subprocess.run(["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", f"--user-data-dir={name}",
+    subprocess.run(["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+                    f"--user-data-dir={name}",
                     f"--window-size={SIZE[0]},{SIZE[1]}", f"--screenshot={PICTURE}", page.as_uri()],
                    check=True, stderr=subprocess.DEVNULL)
 size = PICTURE.stat().st_size

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""compile_table.py BUILD_FOLDER [--repetitions 9]: what compiling takes, over the size of the network, and how it grows.
+"""compile_table.py BUILD_FOLDER [--repetitions 9]: what compiling takes, over the size of the network, and how it
+grows.
 
-Stages are `dashpot compile --timings json`; `command` is the whole process; `object` is `g++ -O2 -c` of a file that includes the header:
-both in processor time. Medians [ms]. An exponent p says that the time grows like size^p: the slope of log(time) over log(size), by least squares over the
-larger half of the sizes.
+Stages are `dashpot compile --timings json`; `command` is the whole process; `object` is `g++ -O2 -c` of a file that
+includes the header: both in processor time. Medians [ms]. An exponent p says that the time grows like size^p: the slope
+of log(time) over log(size), by least squares over the larger half of the sizes.
 """
 import argparse
 import json
@@ -16,7 +17,8 @@ import subprocess
 import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-COLUMNS = ["files", "front end", "normal form", "decomposition", "discretisation", "certificate", "emission", "command", "object"]
+COLUMNS = ["files", "front end", "normal form", "decomposition", "discretisation", "certificate", "emission", "command",
+           "object"]
 
 
 def branches(count):
@@ -26,7 +28,8 @@ def branches(count):
 
 
 def graph(nodes):
-    """Inner nodes, each tied to an earlier one and to a random one: springs and dampers in turn. Equal for equal sizes."""
+    """Inner nodes, each tied to an earlier one and to a random one: springs and dampers in turn. Equal for equal
+    sizes."""
     chance = random.Random(nodes)
     names = ["tool", "ground"] + [f"n{i}" for i in range(nodes)]
     elements = []
@@ -39,7 +42,8 @@ def graph(nodes):
 
 
 def timed(command):
-    """Processor time of the command and its children, which other work on the machine does not stretch much, and standard error."""
+    """Processor time of the command and its children, which other work on the machine does not stretch much, and
+    standard error."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -53,14 +57,16 @@ def measured(dashpot, network, repetitions):
         name = network["name"]
         (pathlib.Path(folder) / "network.json").write_text(json.dumps(network))
         (pathlib.Path(folder) / "unit.cpp").write_text(f'#include "{name}.hpp"\ndashpot::generated::{name} law;\n'
-                                                       "dashpot::command<double> step(double u, double v) { return law.step(u, v); }\n")
+                                                       "dashpot::command<double> step(double u, double v) { return "
+                                                       "law.step(u, v); }\n")
         for _ in range(repetitions):
             seconds, said = timed([dashpot, "compile", f"{folder}/network.json", "--timings", "json", "-o", folder])
             samples["command"].append(seconds)
             timings = json.loads(next(line for line in said.splitlines() if line.startswith('{"timings"')))["timings"]
             for stage in COLUMNS[:-2]:
                 samples[stage].append(timings[stage])
-            samples["object"].append(timed(["g++", "-std=c++17", "-O2", "-c", f"{folder}/unit.cpp", f"-I{SOURCE}/runtime/include", "-o", f"{folder}/unit.o"])[0])
+            samples["object"].append(timed(["g++", "-std=c++17", "-O2", "-c", f"{folder}/unit.cpp",
+                                            f"-I{SOURCE}/runtime/include", "-o", f"{folder}/unit.o"])[0])
     return {column: 1000 * statistics.median(values) for column, values in samples.items()}
 
 
@@ -77,7 +83,8 @@ def print_family(title, sizes, make, dashpot, repetitions):
     for size, row in rows.items():
         print(f"| {size} | " + " | ".join(f"{row[column]:.2f}" for column in COLUMNS) + " |")
     if isinstance(next(iter(sizes)), int):
-        print("| exponent | " + " | ".join(f"{exponent([(n, row[c]) for n, row in rows.items()]):.2f}" for c in COLUMNS) + " |", flush=True)
+        print("| exponent | " + " | ".join(f"{exponent([(n, row[c]) for n, row in rows.items()]):.2f}"
+                                           for c in COLUMNS) + " |", flush=True)
 
 
 def main():

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """maps_table.py DASHPOT: instructions a step behind a map, emitted and as somebody writes it who knows the map.
 
-Hertz' contact before a spring, a damper and one relaxation, with the map's root of a root; the same network without a curve; and the paper's
-Kelvin element along both axes of a five-bar arm, with the C library's sine and cosine. Both make the same commands: that is checked first.
-Counted by callgrind, of a function that calls the law's step and keeps what it answers, with the functions that the step calls; g++ -O2.
+Hertz' contact before a spring, a damper and one relaxation, with the map's root of a root; the same network without a
+curve; and the paper's Kelvin element along both axes of a five-bar arm, with the C library's sine and cosine. Both make
+the same commands: that is checked first. Counted by callgrind, of a function that calls the law's step and keeps what
+it answers, with the functions that the step calls; g++ -O2.
 """
 import json
 import pathlib
@@ -15,7 +16,8 @@ import tempfile
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 ARM = SOURCE / "runtime/devices/pantograph_2dof.json"
 STEPS = 1000
-KELVIN = {"parallel": [{"spring": "400 N/m"}, {"damper": "2 N s/m"}, {"series": [{"spring": "200 N/m"}, {"damper": "40 N s/m"}]}]}
+KELVIN = {"parallel": [{"spring": "400 N/m"}, {"damper": "2 N s/m"},
+                       {"series": [{"spring": "200 N/m"}, {"damper": "40 N s/m"}]}]}
 HERTZ = {"power": 1.5, "force": "2 N", "at": "5 mm"}
 
 # What both programs of one axis begin with: 1 kHz, states below 6e-61 are 0, and NaN and infinity leave them alone.
@@ -106,11 +108,14 @@ class Program:
 
     def __init__(self, folder, law, name, body):
         source = folder / "law.cpp"
-        source.write_text("#include <cmath>\n#include <cstdio>\n" + law + body.replace("CLASS", name).replace("STEPS", str(STEPS)))
+        source.write_text("#include <cmath>\n#include <cstdio>\n" + law +
+                          body.replace("CLASS", name).replace("STEPS", str(STEPS)))
         program = folder / "law"
-        ran("g++", "-std=c++20", "-O2", "-ffp-contract=off", "-I", SOURCE / "runtime/include", "-I", folder, source, "-o", program)
+        ran("g++", "-std=c++20", "-O2", "-ffp-contract=off", "-I", SOURCE / "runtime/include", "-I", folder, source,
+            "-o", program)
         self.answers = [float(number) for number in ran(program).split()]
-        said = ran("valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out", "--toggle-collect=one_step", program)
+        said = ran("valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out", "--toggle-collect=one_step",
+                   program)
         self.instructions = int(re.search(r"Collected : (\d+)", said)[1]) / STEPS
 
 
@@ -122,7 +127,8 @@ def row(what, emitted, by_hand, within):
         allowed = within[2 * kind // kinds]
         if max(abs(x - y) for x, y in pairs) > allowed * max(abs(y) for _, y in pairs):
             sys.exit(f"{what}: emitted and by hand are two laws")
-    print(f"| {what} | {emitted.instructions:.0f} | {by_hand.instructions:.0f} | {emitted.instructions / by_hand.instructions:.2f} |")
+    print(f"| {what} | {emitted.instructions:.0f} | {by_hand.instructions:.0f} | "
+          f"{emitted.instructions / by_hand.instructions:.2f} |")
 
 
 def main():
@@ -146,8 +152,10 @@ def main():
         emitted(SOURCE / "networks/axes/kelvin_field.json", "--device", ARM)
         header = (folder / "kelvin_field.hpp").read_text()
         most, added = (re.search(rf" {name}_damping_1 = ([^;]+);", header)[1] for name in ["most", "added"])
-        row("Kelvin elements along both axes of a five-bar", Program(folder, '#include "kelvin_field.hpp"\n', "dashpot::generated::kelvin_field", TWO_AXES),
-            Program(folder, ARM_BY_HAND.replace("MOST", most).replace("ADDED", added), "by_hand", TWO_AXES), (1e-11, 1e-11))
+        row("Kelvin elements along both axes of a five-bar",
+            Program(folder, '#include "kelvin_field.hpp"\n', "dashpot::generated::kelvin_field", TWO_AXES),
+            Program(folder, ARM_BY_HAND.replace("MOST", most).replace("ADDED", added), "by_hand", TWO_AXES),
+            (1e-11, 1e-11))
 
 
 if __name__ == "__main__":

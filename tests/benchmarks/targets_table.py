@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""targets_table.py DASHPOT: bytes and instructions a step of three laws, from each target that `dashpot compile` has and on two boards.
+"""targets_table.py DASHPOT: bytes and instructions a step of three laws, from each target that `dashpot compile` has
+and on two boards.
 
-Bytes are text and data, by `size`: of an object with one function that calls the law's step; of a component, a unit's or a package's shared
-library with all that it exports; of a module for JavaScript those of the file. Instructions are counted by callgrind, of a function that calls
-the law's step and keeps what it answers: of a unit it sets position and velocity, does a step and gets both outputs; of a package for Python it
-is C that calls the library, a sample at a time. On the boards QEMU counts them, beyond an empty step. A component runs in a process of
-LinuxCNC and a module in an engine that compiles it: of these nothing is counted.
+Bytes are text and data, by `size`: of an object with one function that calls the law's step; of a component, a unit's
+or a package's shared library with all that it exports; of a module for JavaScript those of the file. Instructions are
+counted by callgrind, of a function that calls the law's step and keeps what it answers: of a unit it sets position and
+velocity, does a step and gets both outputs; of a package for Python it is C that calls the library, a sample at a time.
+On the boards QEMU counts them, beyond an empty step. A component runs in a process of LinuxCNC and a module in an
+engine that compiles it: of these nothing is counted.
 """
 import pathlib
 import re
@@ -115,7 +117,8 @@ def ran(*command, **more):
 def counted(program):
     """Instructions of one_step() and what it calls, a step."""
     with tempfile.TemporaryDirectory() as folder:
-        said = ran("valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out", "--toggle-collect=one_step", program)
+        said = ran("valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out", "--toggle-collect=one_step",
+                   program)
     collected = int(re.search(r"Collected : (\d+)", said)[1])
     return f"{collected / STEPS:.0f}"
 
@@ -126,7 +129,8 @@ def loaded(file, tool="size"):
 
 
 def in_language(folder, name, target):
-    suffix, compiler, head = ("cpp", ["g++", "-std=c++17", f"-I{SOURCE}/runtime/include"], CPP) if target == "cpp" else ("c", ["gcc", "-std=c99"], C99)
+    suffix, compiler, head = ("cpp", ["g++", "-std=c++17", f"-I{SOURCE}/runtime/include"],
+                              CPP) if target == "cpp" else ("c", ["gcc", "-std=c99"], C99)
     begin = "int main() {" if target == "cpp" else f"int main(void) {{\n  {name}_init(&law);\n  {name}_reset(&law, 0);"
     (folder / f"law.{suffix}").write_text(head.format(name=name))
     (folder / f"main.{suffix}").write_text(head.format(name=name) + begin + DRIVER)
@@ -161,17 +165,21 @@ def as_package(folder, name):
 def on_board(folder, name, processor):
     options = compiling(processor, folder, FIRMWARE, SOURCE / "runtime/devices/board/include")
     (folder / "law.cpp").write_text(f'#include "{name}.hpp"\nusing law = dashpot::generated::{name};\n'
-                                    "dashpot::command<law::scalar> one_step(law& now, law::scalar u, law::scalar v) { return now.step(u, v); }\n")
+                                    "dashpot::command<law::scalar> one_step(law& now, law::scalar u, law::scalar v) { "
+                                    "return now.step(u, v); }\n")
     (folder / "main.cpp").write_text(BOARD.format(name=name))
     ran("arm-none-eabi-g++", *options, "-c", folder / "law.cpp", "-o", folder / "law.o")
     ran("arm-none-eabi-g++", *options, *linking(folder / "main.cpp", folder / "play.elf"))
-    return loaded(folder / "law.o", "arm-none-eabi-size"), printed(folder / "play.elf", PROCESSORS[processor][1]).strip()
+    return loaded(folder / "law.o", "arm-none-eabi-size"), printed(folder / "play.elf",
+                                                                   PROCESSORS[processor][1]).strip()
 
 
-ROWS = [("C++17", "cpp", "double", lambda *law: in_language(*law, "cpp")), ("C99", "c99", "double", lambda *law: in_language(*law, "c99")),
+ROWS = [("C++17", "cpp", "double", lambda *law: in_language(*law, "cpp")),
+        ("C99", "c99", "double", lambda *law: in_language(*law, "c99")),
         ("LinuxCNC", "hal", "double", as_component), ("FMI 2.0", "fmi2", "double", lambda *law: as_unit(*law, 2)),
         ("FMI 3.0", "fmi3", "double", lambda *law: as_unit(*law, 3)), ("Python", "python", "double", as_package),
-        ("JavaScript", "wasm", "double", lambda folder, name: (str((folder / name / f"{name}.wasm").stat().st_size), "-")),
+        ("JavaScript", "wasm", "double", lambda folder, name: (str((folder / name / f"{name}.wasm").stat().st_size),
+                                                               "-")),
         ("Cortex-M4F, float", "cpp", "float", lambda *law: on_board(*law, "cortex_m4f")),
         ("Cortex-M7, double", "cpp", "double", lambda *law: on_board(*law, "cortex_m7"))]
 
@@ -184,7 +192,8 @@ def main():
         cells = []
         for name, room in LAWS.items():
             with tempfile.TemporaryDirectory() as folder:
-                ran(dashpot, "compile", SOURCE / f"networks/{room}/{name}.json", "--target", target, "--scalar", scalar, "-o", folder)
+                ran(dashpot, "compile", SOURCE / f"networks/{room}/{name}.json", "--target", target, "--scalar", scalar,
+                    "-o", folder)
                 cells += measure(pathlib.Path(folder), name)
         print(f"| {title} | " + " | ".join(cells) + " |", flush=True)
 

@@ -19,10 +19,11 @@ sys.path.insert(0, str(SOURCE / "tests/support"))
 from cortex_m import PROCESSORS, compiling, linking, printed  # noqa: E402
 
 BOARD = SOURCE / "runtime/devices/arm_board_mps2.json"
-STRICT = ["-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Wdouble-promotion", "-Werror", "-ffp-contract=off"]
+STRICT = ["-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Wdouble-promotion", "-Werror",
+          "-ffp-contract=off"]
 
-# Reads rows of q1, q2, v1, v2 and writes what the law answers, in turn by step() and by its two phases, with its energy; every 70th
-# row is where it is reset to.
+# Reads rows of q1, q2, v1, v2 and writes what the law answers, in turn by step() and by its two phases, with its
+# energy; every 70th row is where it is reset to.
 BODY = r"""
 #include <stdio.h>
 int main(void) {
@@ -48,16 +49,21 @@ int main(void) {
   return 0;
 }
 """
-IN_CPP = {"BEGIN": "LAW law; law.reset();", "PERIOD": "LAW::sample_period", "ROTATES": "(LAW::port_motion == dashpot::motion::rotation)",
+IN_CPP = {"BEGIN": "LAW law; law.reset();", "PERIOD": "LAW::sample_period",
+          "ROTATES": "(LAW::port_motion == dashpot::motion::rotation)",
           "DELAY": "int(LAW::certified_for::loop_delay)", "DIGEST": "LAW::certified_for::device_digest",
           "CERTIFIED": "LAW::certified_for::is_certified", "BRAKES": "LAW::brakes", "ADDED(i)": "LAW::added_damping[i]",
-          "ESTIMATOR(i)": "LAW::certified_for::estimator[i]", "COMMANDS": "dashpot::commands<LAW::scalar, 2, LAW::brakes>",
-          "RESET(q)": "law.reset(q)", "STEP(q, v)": "law.step(q, v)", "OUTPUT(q, v)": "law.output(q, v)", "UPDATE()": "law.update()",
+          "ESTIMATOR(i)": "LAW::certified_for::estimator[i]",
+          "COMMANDS": "dashpot::commands<LAW::scalar, 2, LAW::brakes>",
+          "RESET(q)": "law.reset(q)", "STEP(q, v)": "law.step(q, v)", "OUTPUT(q, v)": "law.output(q, v)",
+          "UPDATE()": "law.update()",
           "ENERGY()": "law.stored_energy()", "SCALAR": "LAW::scalar", "LAW": "dashpot::generated::NAME"}
 IN_C = {"BEGIN": "NAME law; NAME_init(&law);", "PERIOD": "NAME_sample_period()", "ROTATES": "NAME_is_rotation()",
-        "DELAY": "(int)NAME_loop_delay()", "DIGEST": "NAME_device_digest()", "CERTIFIED": "NAME_is_certified()", "BRAKES": "NAME_brakes",
+        "DELAY": "(int)NAME_loop_delay()", "DIGEST": "NAME_device_digest()", "CERTIFIED": "NAME_is_certified()",
+        "BRAKES": "NAME_brakes",
         "ADDED(i)": "NAME_added_damping(i)", "ESTIMATOR(i)": "NAME_estimator(i)", "COMMANDS": "NAME_commands",
-        "RESET(q)": "NAME_reset(&law, q)", "STEP(q, v)": "NAME_step(&law, q, v)", "OUTPUT(q, v)": "NAME_output(&law, q, v)",
+        "RESET(q)": "NAME_reset(&law, q)", "STEP(q, v)": "NAME_step(&law, q, v)",
+        "OUTPUT(q, v)": "NAME_output(&law, q, v)",
         "UPDATE()": "NAME_update(&law)", "ENERGY()": "NAME_stored_energy(&law)"}
 # What an object file with all of the law's functions would be linked with.
 ALL_OF_IT = r"""
@@ -97,10 +103,12 @@ int main() {
 }
 """
 
-# Slips that meet, in a port that relaxes, and a contact that is touched and left, within a few millimetres of (0, 95 mm).
+# Slips that meet, in a port that relaxes, and a contact that is touched and left, within a few millimetres of (0, 95
+# mm).
 SLIPPING = {"dashpot": 1, "axes": 2, "name": "slipping", "ports": [
     {"name": "table", "map": {"along": [1, 0.3]}, "network": {"parallel": [
-        {"series": [{"spring": "500 N/m"}, {"parallel": [{"slip": "0.5 N"}, {"series": [{"spring": "300 N/m"}, {"slip": "0.2 N"}]}]}]},
+        {"series": [{"spring": "500 N/m"},
+                    {"parallel": [{"slip": "0.5 N"}, {"series": [{"spring": "300 N/m"}, {"slip": "0.2 N"}]}]}]},
         {"series": [{"spring": "80 N/m"}, {"damper": "2 N s/m"}]}]}},
     {"name": "ball", "map": {"ball": {"centre": [0, "130 mm"], "radius": "35 mm"}}, "contact": {"at": "0 mm"},
      "network": {"parallel": [{"spring": "150 N/m"}, {"damper": "0.5 N s/m"}]}}]}
@@ -168,12 +176,13 @@ class AxesC99Test(CommandTest):
         subprocess.run([*compiler, *STRICT, "-O1", "-I", folder, source, *more], cwd=self.folder, check=True)
 
     def answers(self, rows):
-        return subprocess.run([self.folder / "law"], input="".join(" ".join(map(repr, row)) + "\n" for row in rows), text=True,
+        return subprocess.run([self.folder / "law"], input="".join(" ".join(map(repr, row)) + "\n" for row in rows),
+                              text=True,
                               capture_output=True, check=True).stdout.splitlines()
 
     def test_c_and_cpp_agree_to_the_bit(self):
-        """Fails if a law in C answers a sample, or states a fact, otherwise than the class in C++, by one bit, or does not compile where
-        the strictest read it, in C or in C++."""
+        """Fails if a law in C answers a sample, or states a fact, otherwise than the class in C++, by one bit, or does
+        not compile where the strictest read it, in C or in C++."""
         seen = set()
         for name, scalar, is_at_joints, folder in self.laws():
             rows = self.rows(is_at_joints)
@@ -183,13 +192,15 @@ class AxesC99Test(CommandTest):
             self.assertGreater(len(set(told)), 50, name)  # the ball is not always touched
             self.assertFalse(any(word in line for line in told[1:] for word in ("nan", "inf")))
             in_c = {**IN_C, "SCALAR": scalar}
-            for compiler in (["gcc", "-std=c99"], [shutil.which("clang") or shutil.which("clang-19") or "clang-14", "-std=c99"]):
+            for compiler in (["gcc", "-std=c99"], [shutil.which("clang") or shutil.which("clang-19") or "clang-14",
+                                                   "-std=c99"]):
                 self.program(name, in_c, '#include "NAME.h"', folder, compiler, "law.c", "-o", "law")
                 self.assertEqual(self.answers(rows), told, (name, scalar, compiler))
             self.program(name, in_c, '#include "NAME.h"', folder, ["g++", "-x", "c++", "-std=c++17"], "law.c",
                          "-fsyntax-only")
             header = (folder / f"{name}.h").read_text()
-            seen |= {part for part in ("_square_root(", "_tree_step(", "gate", "dashpot_flush_below", "_brakes = 4") if part in header}
+            seen |= {part for part in ("_square_root(", "_tree_step(", "gate", "dashpot_flush_below", "_brakes = 4")
+                     if part in header}
         self.assertEqual(len(seen), 5, seen)
 
     def test_a_law_needs_nothing_but_to_copy_and_to_clear(self):
@@ -200,7 +211,8 @@ class AxesC99Test(CommandTest):
             subprocess.run(["gcc", "-std=c99", "-ffreestanding", "-O2", "-fno-stack-protector", "-I", folder, "-c",
                             "law.c"],
                            cwd=self.folder, check=True)
-            undefined = subprocess.run(["nm", "-u", "law.o"], cwd=self.folder, check=True, capture_output=True, text=True).stdout
+            undefined = subprocess.run(["nm", "-u", "law.o"], cwd=self.folder, check=True, capture_output=True,
+                                       text=True).stdout
             self.assertLessEqual(set(undefined.split()) - {"U"}, {"memcpy", "memmove", "memset"})
 
     def test_a_board_answers_as_simulate_does(self):
@@ -213,11 +225,13 @@ class AxesC99Test(CommandTest):
             name = json.loads(WALL.read_text())["name"]
             table = ", ".join("{" + ", ".join(f"(SCALAR){value!r}" for value in row) + "}" for row in rows)
             self.write("board.cpp", ON_BOARD.replace("ROWS", table).replace("NAME", name).replace("SCALAR", scalar))
-            subprocess.run(["arm-none-eabi-g++", *compiling(processor, self.folder), *linking(self.folder / "board.cpp", self.folder / "law.elf")],
+            subprocess.run(["arm-none-eabi-g++", *compiling(processor, self.folder),
+                            *linking(self.folder / "board.cpp", self.folder / "law.elf")],
                            cwd=self.folder, check=True)
             bits = [" ".join(struct.pack(f">{form}", number).hex() for number in row) for row in told]
             self.assertGreater(len(set(bits)), 100)
-            self.assertEqual([line.strip() for line in printed(self.folder / "law.elf", machine).splitlines()], bits, processor)
+            self.assertEqual([line.strip() for line in printed(self.folder / "law.elf", machine).splitlines()], bits,
+                             processor)
 
     def test_roots_are_those_of_the_runtime(self):
         """Fails if a root in C is another number than in C++, however small or large what it is of."""
@@ -240,7 +254,8 @@ int main() {
 }
 """.replace("FIRST", str(exponents[0])).replace("LAST", str(exponents[1])).replace("SCALAR", scalar))
             for by_steps in ([], ["-U__SSE2__"]):  # as on a processor without an instruction for it
-                subprocess.run(["g++", "-std=c++17", "-ffp-contract=off", *by_steps, "-I", SOURCE / "runtime/include", "-I", ".", "roots.cpp",
+                subprocess.run(["g++", "-std=c++17", "-ffp-contract=off", *by_steps, "-I", SOURCE / "runtime/include",
+                                "-I", ".", "roots.cpp",
                                 "-o", "roots"], cwd=self.folder, check=True)
                 told = subprocess.run([self.folder / "roots"], capture_output=True, text=True, check=True).stdout
                 self.assertEqual(told, "0", (scalar, by_steps))
@@ -253,7 +268,8 @@ int main() {
             self.assertIn("passivity", c99)
 
     def test_a_build_in_c(self):
-        """Fails if CMake does not make a law in C of a device of two axes, or asks for a description of it that C does not have."""
+        """Fails if CMake does not make a law in C of a device of two axes, or asks for a description of it that C does
+        not have."""
         self.write("CMakeLists.txt", f"""
 cmake_minimum_required(VERSION 3.25)
 project(press LANGUAGES C)
@@ -262,7 +278,9 @@ dashpot_compile(field NETWORK {FIELD} DEVICE {PANTOGRAPH} TARGET c99)
 add_executable(press main.c)
 target_link_libraries(press PRIVATE field)
 """)
-        self.write("main.c", '#include <kelvin_field.h>\nint main(void) {\n  kelvin_field law;\n  kelvin_field_init(&law);\n  return law.sampled;\n}\n')
+        self.write("main.c",
+                   '#include <kelvin_field.h>\nint main(void) {\n  kelvin_field law;\n  kelvin_field_init(&law);\n  '
+                   'return law.sampled;\n}\n')
         for step in (["-S", ".", "-B", "build", f"-DDASHPOT_COMPILER={DASHPOT}"], ["--build", "build"]):
             done = subprocess.run(["cmake", *step], cwd=self.folder, capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

@@ -8,10 +8,13 @@ import unittest
 from axes_test import FIELD, PANTOGRAPH, jacobian_of, joints_of, tip_of
 from dashpot_command import COMMAND_LINE_WRONG, INPUT_REFUSED, CommandTest
 
-COLUMNS = ["time", "q1", "q2", "estimate_1", "estimate_2", "felt_torque_1", "felt_torque_2", "closed_form_1", "closed_form_2",
-           "damping_1", "damping_2", "torque_1", "torque_2", "tip_x", "tip_y", "felt_x", "felt_y", "closed_form_x", "closed_form_y"]
+COLUMNS = ["time", "q1", "q2", "estimate_1", "estimate_2", "felt_torque_1", "felt_torque_2", "closed_form_1",
+           "closed_form_2",
+           "damping_1", "damping_2", "torque_1", "torque_2", "tip_x", "tip_y", "felt_x", "felt_y", "closed_form_x",
+           "closed_form_y"]
 KELVIN = {"parallel": [{"spring": "100 N/m"}, {"damper": "1 N s/m"}]}
-SOLID = {"parallel": [{"spring": "40 N/m"}, {"damper": "0.7 N s/m"}, {"series": [{"spring": "90 N/m"}, {"damper": "4 N s/m"}]}]}
+SOLID = {"parallel": [{"spring": "40 N/m"}, {"damper": "0.7 N s/m"},
+                      {"series": [{"spring": "90 N/m"}, {"damper": "4 N s/m"}]}]}
 
 
 def along(motion, step):
@@ -34,12 +37,15 @@ class AxesMotion(CommandTest):
 
     def device(self, kind="five_bar", rate="2 kHz", **changes):
         """An arm without imperfection but for `changes` of its sections."""
-        arm = {"five_bar": {"kind": "five_bar", "links": ["63 mm", "75 mm"], "base": "25 mm"}, "cartesian": {"kind": "cartesian"}}[kind]
+        arm = {"five_bar": {"kind": "five_bar", "links": ["63 mm", "75 mm"], "base": "25 mm"},
+               "cartesian": {"kind": "cartesian"}}[kind]
         turns = kind != "cartesian"
         told = {"dashpot_device": 1, "axes": 2, "name": "arm",
-                "kinematics": arm | {"workspace": {"x": ["-40 mm", "40 mm"], "y": ["70 mm", "120 mm"]}}, "loop": {"rate": rate},
+                "kinematics": arm | {"workspace": {"x": ["-40 mm", "40 mm"], "y": ["70 mm", "120 mm"]}},
+                "loop": {"rate": rate},
                 "velocity": {"estimator": "backward_difference", "window": 1}, "motors": {},
-                "brakes": [{"along": direction, "kind": "eddy_current", "max_damping": "50 mN m s/rad" if turns else "50 N s/m"}
+                "brakes": [{"along": direction, "kind": "eddy_current", "max_damping": "50 mN m s/rad" if turns
+                            else "50 N s/m"}
                            for direction in ([1, 0], [0, 1])],
                 "mechanics": {"link_masses": ["20 g", "15 g"], "damping": "10 mN m s/rad"} if turns else
                              {"inertia": [["0.1 kg", "0 kg"], ["0 kg", "0.1 kg"]], "damping": "20 N s/m"}}
@@ -50,16 +56,19 @@ class AxesMotion(CommandTest):
 
     def played(self, net, device, motion, *choices):
         self.write("motion.csv", motion)
-        told = json.loads(self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv", "--json", *choices).stdout)
+        told = json.loads(self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv",
+                                       "--json", *choices).stdout)
         rows = list(csv.reader(io.StringIO((self.folder / "felt.csv").read_text())))
         self.assertEqual(rows[0], COLUMNS)
         return [dict(zip(COLUMNS, map(float, row))) for row in rows[1:]], told
 
     def test_the_network_at_the_joints(self):
-        """Fails if what the network and the field oppose to the joints is not what their closed forms give at the tip."""
+        """Fails if what the network and the field oppose to the joints is not what their closed forms give at the
+        tip."""
         centre, viscous = (0.0, 0.14), [[1.5, 0.4], [0.4, 0.8]]
         net = self.network({"map": {"ball": {"centre": ["0 mm", "140 mm"], "radius": "30 mm"}}, "network": KELVIN},
-                           {"map": {"along": [3, 4]}, "network": KELVIN}, field={"viscous": [["1.5 N s/m", "0.4 N s/m"], ["0.4 N s/m", "0.8 N s/m"]]})
+                           {"map": {"along": [3, 4]}, "network": KELVIN},
+                           field={"viscous": [["1.5 N s/m", "0.4 N s/m"], ["0.4 N s/m", "0.8 N s/m"]]})
         recorded = along(round_the_middle, 0.01)
         rows, _ = self.played(net, self.device(), table(recorded))
         self.assertEqual(len(rows), 2001)
@@ -77,14 +86,17 @@ class AxesMotion(CommandTest):
             for w, gradient in ((0.03 - distance, toward), (0.6 * tip[0] + 0.8 * tip[1], (0.6, 0.8))):
                 pushed = 100 * w + gradient[0] * moves[0] + gradient[1] * moves[1]
                 force = [f + g * pushed for f, g in zip(force, gradient)]
-            for name, value in zip(("q1", "q2", "tip_x", "tip_y", "closed_form_x", "closed_form_y"), (*q, *tip, *force)):
+            for name, value in zip(("q1", "q2", "tip_x", "tip_y", "closed_form_x", "closed_form_y"),
+                                   (*q, *tip, *force)):
                 self.assertAlmostEqual(row[name], value, delta=1e-7)  # of the differences that the Jacobian is made of
             for j in (0, 1):
-                self.assertAlmostEqual(row[f"closed_form_{j + 1}"], columns[j][0] * force[0] + columns[j][1] * force[1], delta=1e-8)
+                self.assertAlmostEqual(row[f"closed_form_{j + 1}"], columns[j][0] * force[0] + columns[j][1] * force[1],
+                                       delta=1e-8)
 
     def test_relaxations(self):
         """Fails if a network that relaxes is driven by something else than how far the tip goes into its map."""
-        # On straight axes the way along a direction is straight between rows: closed form. Round a ball it is bent: quadrature.
+        # On straight axes the way along a direction is straight between rows: closed form. Round a ball it is bent:
+        # quadrature.
         points = [(0.0, 0.0, 0.09), (0.25, 0.004, 0.09), (0.5, 0.004, 0.1), (0.75, 0.001, 0.1)]
         net = self.network({"map": {"along": [3, 4]}, "network": SOLID})
         rows, _ = self.played(net, self.device("cartesian"), table(points))
@@ -103,7 +115,9 @@ class AxesMotion(CommandTest):
         recorded = along(round_the_middle, 0.02)
         rows, _ = self.played(net, self.device(), table(recorded))
         inside, steps = 0.0, 40  # of a sample of the loop; the rule of midpoints
-        depth = lambda t: 0.03 - math.dist(tip_of([a + (t * 50 - int(t * 50)) * (b - a) for a, b in zip(recorded[int(t * 50)][1:], recorded[int(t * 50) + 1][1:])]), (0, 0.14))
+        depth = lambda t: 0.03 - math.dist(tip_of([a + (t * 50 - int(t * 50)) * (b - a)
+                                                   for a, b in zip(recorded[int(t * 50)][1:],
+                                                                   recorded[int(t * 50) + 1][1:])]), (0, 0.14))
         for k in range(400):
             for i in range(steps):
                 a, b = depth((k + i / steps) / 2000 + 1e-12), depth((k + (i + 1) / steps) / 2000 - 1e-12)
@@ -112,7 +126,8 @@ class AxesMotion(CommandTest):
             if k % 40 != 33: continue
             row, t = rows[k + 1], (k + 1) / 2000
             speed = (depth(t + 1e-6) - depth(t - 1e-6)) / 2e-6
-            self.assertAlmostEqual(math.hypot(row["closed_form_x"], row["closed_form_y"]), abs(40 * depth(t) + 0.7 * speed + inside), delta=1e-5)
+            self.assertAlmostEqual(math.hypot(row["closed_form_x"], row["closed_form_y"]),
+                                   abs(40 * depth(t) + 0.7 * speed + inside), delta=1e-5)
 
     def test_a_device_without_imperfection(self):
         """Fails if what is felt on an exact arm is off by more than the motors' hold, or is not what is summed up."""
@@ -126,7 +141,8 @@ class AxesMotion(CommandTest):
                 error = told["joints"][int(j) - 1]["error"]
                 self.assertAlmostEqual(error["peak"], max(map(abs, off)), delta=1e-15)
                 self.assertAlmostEqual(error["rms"], math.sqrt(sum(d * d for d in off) / len(off)), delta=1e-15)
-            at_tip = max(math.hypot(row["felt_x"] - row["closed_form_x"], row["felt_y"] - row["closed_form_y"]) for row in rows)
+            at_tip = max(math.hypot(row["felt_x"] - row["closed_form_x"], row["felt_y"] - row["closed_form_y"])
+                         for row in rows)
             self.assertAlmostEqual(told["tip"]["error"]["peak"], at_tip, delta=1e-12)
         self.assertLess(shares[0], 0.02)
         self.assertLess(shares[1], shares[0] / 2)
@@ -150,7 +166,9 @@ class AxesMotion(CommandTest):
         """Fails if damping that is added to the brakes counts as the network's, or is not reported."""
         net = self.network({"map": {"along": [1, 0]}, "network": {"spring": "200 N/m"}})
         device = self.device("cartesian", mechanics={"damping": "0 N s/m"}, encoders={"max_speed": "1 m/s"})
-        rows, told = self.played(net, device, table([(k / 2000, 0.005 * math.sin(2 * math.pi * k / 2000), 0.095) for k in range(2001)]))
+        rows, told = self.played(net, device,
+                                 table([(k / 2000, 0.005 * math.sin(2 * math.pi * k / 2000), 0.095)
+                                        for k in range(2001)]))
         added = told["brakes"][0]["for_passivity"]
         self.assertGreater(added, 0)
         for row in rows[200:1800:77]:
@@ -161,14 +179,17 @@ class AxesMotion(CommandTest):
             self.assertAlmostEqual(row["felt_torque_1"], past + added * speed, delta=1e-4)
         said = self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv").stdout
         self.assertIn(f"; of it {added:.4g} are there for passivity alone\n", said)
-        for words in ("net on arm: 2001 samples at 2000 Hz, brakes by the rule diagonal\n", "brake 2 is told ", "the network's force on joint 1: rms ",
+        for words in ("net on arm: 2001 samples at 2000 Hz, brakes by the rule diagonal\n", "brake 2 is told ",
+                      "the network's force on joint 1: rms ",
                       "error of what is felt at the tip: rms ", "energy: ", "log: felt.csv"):
             self.assertIn(words, said)
 
     def test_a_contact(self):
         """Fails if a port with a contact is compared with one that holds the tool, or that it does not touch."""
-        net = self.network({"map": {"wall": {"through": [0, "95 mm"], "normal": [0, -1]}}, "network": KELVIN, "contact": {"at": "0 mm"}})
-        rows, told = self.played(net, self.device(), table(along(lambda t: (0, 0.095 - 0.008 * math.cos(2 * math.pi * t)), 0.001)))
+        net = self.network({"map": {"wall": {"through": [0, "95 mm"], "normal": [0, -1]}}, "network": KELVIN,
+                            "contact": {"at": "0 mm"}})
+        rows, told = self.played(net, self.device(),
+                                 table(along(lambda t: (0, 0.095 - 0.008 * math.cos(2 * math.pi * t)), 0.001)))
         for row in rows[3::71]:
             depth, speed = row["tip_y"] - 0.095, 0.016 * math.pi * math.sin(2 * math.pi * row["time"])
             wanted = max(0.0, 100 * depth + speed) if depth > 0 else 0.0
@@ -178,9 +199,11 @@ class AxesMotion(CommandTest):
     def test_energy(self):
         """Fails if the energy that is reported is not what motors and brakes have taken: a field takes what it
         takes."""
-        net = self.network({"map": {"along": [1, 0]}, "network": {"damper": "1 N s/m"}}, {"map": {"along": [0, 1]}, "network": {"damper": "1 N s/m"}})
+        net = self.network({"map": {"along": [1, 0]}, "network": {"damper": "1 N s/m"}},
+                           {"map": {"along": [0, 1]}, "network": {"damper": "1 N s/m"}})
         _, told = self.played(net, self.device(), table(along(round_the_middle, 1 / 2000)))
-        # ∫ v² dt over a second of 12 mm at 1 Hz and 10 mm at 2 Hz. Couplings are the motors', from estimates half a sample late.
+        # ∫ v² dt over a second of 12 mm at 1 Hz and 10 mm at 2 Hz. Couplings are the motors', from estimates half a
+        # sample late.
         wanted = (0.012 * 2 * math.pi) ** 2 / 2 + (0.01 * 4 * math.pi) ** 2 / 2
         self.assertAlmostEqual(told["energy"]["taken"] / wanted, 1, delta=0.01)
         self.assertGreaterEqual(told["energy"]["lowest"], 0)
@@ -196,7 +219,8 @@ class AxesMotion(CommandTest):
             self.assertAlmostEqual(one["felt_torque_1"], other["felt_torque_1"], delta=1e-7)
         # What it has written it plays again.
         again = self.played(net, self.device(), (self.folder / "felt.csv").read_text())
-        self.assertAlmostEqual(again[1]["joints"][0]["force"]["rms"], second[1]["joints"][0]["force"]["rms"], delta=1e-9)
+        self.assertAlmostEqual(again[1]["joints"][0]["force"]["rms"], second[1]["joints"][0]["force"]["rms"],
+                               delta=1e-9)
 
     def test_the_same_run(self):
         """Fails if a run is not the same from the same seed, or single precision is another law."""
@@ -216,14 +240,16 @@ class AxesMotion(CommandTest):
         run = ["run", net, "--device", self.device(), "--motion", "motion.csv"]
         q1, q2 = joints_of(0, 0.095)
         self.write("motion.csv", table([(0, q1, q2), (0.1, q1, q2), (0.2, 3.1, 0.05)]))
-        self.assertIn("motion.csv:4:1: error: cannot start 'arm': its links do not meet with the joints at 3.1 and 0.05 rad",
+        self.assertIn("motion.csv:4:1: error: cannot start 'arm': its links do not meet with the joints at 3.1 and "
+                      "0.05 rad",
                       self.refused(*run, code="cannot-start-device").stderr)
         self.write("motion.csv", table([(0, 10, 10), (0.1, 10, 10)], "time,q1 [mm],q2 [mm]"))
         self.assertIn("motion.csv:1:", self.refused(*run, code="csv-other-motion").stderr)
         self.write("motion.csv", "time,q1,q2\n0,1,1\n0.1,a,1\n")
         self.assertIn("motion.csv:3:", self.refused(*run, code="csv-not-a-number").stderr)
         self.write("motion.csv", table(along(lambda t: (0.045 * math.sin(2 * math.pi * t), 0.095), 0.01)))
-        self.assertIn("from -45 to 45, beyond the device's range of -40 to 40 mm in x of the tip", self.dashpot(*run, "-o", "felt.csv").stderr)
+        self.assertIn("from -45 to 45, beyond the device's range of -40 to 40 mm in x of the tip",
+                      self.dashpot(*run, "-o", "felt.csv").stderr)
         for more in (["--hand", "firm"], ["--for", "1"]):
             self.refused(*run, *more, code="not-with-motion", status=COMMAND_LINE_WRONG)
         self.refused(*run, "-o", "motion.csv", code="would-overwrite-input", status=COMMAND_LINE_WRONG)

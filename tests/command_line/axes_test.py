@@ -1,4 +1,5 @@
-"""Networks of two axes in the commands that take them: the emitted code and simulate to the bit, closed forms, energy."""
+"""Networks of two axes in the commands that take them: the emitted code and simulate to the bit, closed forms,
+energy."""
 import json
 import math
 import random
@@ -67,7 +68,8 @@ def jacobian_of(q):
         ahead[j] += h
         behind[j] -= h
         return [(a - b) / (2 * h) for a, b in zip(tip_of(ahead), tip_of(behind))]
-    columns = [[(4 * fine - coarse) / 3 for fine, coarse in zip(difference(j, 5e-4), difference(j, 1e-3))] for j in range(2)]
+    columns = [[(4 * fine - coarse) / 3 for fine, coarse in zip(difference(j, 5e-4), difference(j, 1e-3))]
+               for j in range(2)]
     return columns
 
 
@@ -108,8 +110,10 @@ class AxesTest(CommandTest):
         name = json.loads(network.read_text())["name"]
         self.dashpot("compile", network, "--uncertified", *options)
         self.write("driver.cpp", DRIVER % {"name": name})
-        subprocess.run([shutil.which("g++") or "c++", "-std=c++17", "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror",
-                        "-I", SOURCE / "runtime/include", "-I", ".", "driver.cpp", "-o", name], cwd=self.folder, check=True)
+        subprocess.run([shutil.which("g++") or "c++", "-std=c++17", "-O1", "-ffp-contract=off", "-Wall", "-Wextra",
+                        "-Werror",
+                        "-I", SOURCE / "runtime/include", "-I", ".", "driver.cpp", "-o", name], cwd=self.folder,
+                       check=True)
         return self.folder / name
 
     def answers(self, program, rows):
@@ -141,11 +145,14 @@ class AxesTest(CommandTest):
                         same = single if scalar == "float" else list
                         program = self.compile(network, *device, "--scalar", scalar)
                         told = [same(row[:4]) for row in self.answers(program, rows)[:-1]]
-                        self.assertEqual([same(row) for row in self.simulated(network, rows, *device, "--scalar", scalar)], told)
+                        self.assertEqual([same(row)
+                                          for row in self.simulated(network, rows, *device, "--scalar", scalar)], told)
 
-    # If this fails, a constant that reset() alone reads is not in the header: springs between two walls need no zero in a sample.
+    # If this fails, a constant that reset() alone reads is not in the header: springs between two walls need no zero in
+    # a sample.
     def test_two_walls_without_dampers(self):
-        walls = [{"name": name, "map": {"wall": {"through": [0, f"{at} mm"], "normal": [0, side]}}, "contact": {"at": "0 mm"},
+        walls = [{"name": name, "map": {"wall": {"through": [0, f"{at} mm"], "normal": [0, side]}},
+                  "contact": {"at": "0 mm"},
                   "network": {"spring": "150 N/m"}} for name, at, side in [("near", 94, 1), ("far", 96, -1)]]
         network = self.write("walls.json", json.dumps({"dashpot": 1, "axes": 2, "name": "walls", "ports": walls}))
         rows = self.rows(motion_in_joints(400, 3))
@@ -210,7 +217,8 @@ class AxesTest(CommandTest):
     # If this fails, a NaN or infinite sample moves the springs, or leaves the motors on.
     def test_a_refused_sample_changes_nothing(self):
         for network in (FIELD, BALL):
-            *_, last, refused = self.answers(self.compile(network, "--device", PANTOGRAPH), self.rows(motion_in_joints(50, 9)))
+            *_, last, refused = self.answers(self.compile(network, "--device", PANTOGRAPH),
+                                             self.rows(motion_in_joints(50, 9)))
             self.assertEqual(refused, [*last[:2], 0, 0, last[4]])
 
     # If this fails, a step of the simplest field costs more than a controller has time for.
@@ -238,7 +246,8 @@ class AxesTest(CommandTest):
         for kind, joints, ranges in [
                 ("five_bar", joints_of, [(50, 220), (-40, 130)]), ("five_bar", joints_of, [(80, 185), (0, 180)]),
                 ("parallelogram", lambda x, y: list(of_links(x, y)), [(-60, 80), (60, 220)]),
-                ("serial", lambda x, y: [of_links(x, y)[0], of_links(x, y)[1] - of_links(x, y)[0]], [(0, 70), (60, 150)])]:
+                ("serial", lambda x, y: [of_links(x, y)[0], of_links(x, y)[1] - of_links(x, y)[0]],
+                 [(0, 70), (60, 150)])]:
             arm = json.loads(PANTOGRAPH.read_text()) | {"assumed": []}
             arm["kinematics"] = {"kind": kind, **links} | ({"base": "25 mm"} if kind == "five_bar" else {})
             rows = self.rows([joints(x, y) for x, y in around])
@@ -264,7 +273,8 @@ class AxesTest(CommandTest):
     # If this fails, a law computes wrong angles within its workspace, since the ranges that are stated leave it.
     def test_ranges_that_the_workspace_leaves_are_not_used(self):
         rows, answers = self.rows(motion_in_joints(100, 4)), []
-        for first, second in [(None, None), (["100 deg", "150 deg"], ["10 deg", "60 deg"]), (["410 deg", "580 deg"], ["-400 deg", "-230 deg"])]:
+        for first, second in [(None, None), (["100 deg", "150 deg"], ["10 deg", "60 deg"]),
+                              (["410 deg", "580 deg"], ["-400 deg", "-230 deg"])]:
             arm = json.loads(PANTOGRAPH.read_text()) | {"assumed": []}
             for encoder, limits in zip(arm["encoders"], (first, second)):
                 encoder.update({"range": limits}) if limits else encoder.pop("range")
@@ -276,16 +286,21 @@ class AxesTest(CommandTest):
     # If this fails, the damping that a brake has without current is counted in full where it fades with speed.
     def test_residual_damping_fades_with_speed(self):
         network = self.write("springs.json", json.dumps({"dashpot": 1, "axes": 2, "name": "springs", "ports": [
-            {"name": name, "map": {"along": along}, "network": {"spring": "1000 N/m"}} for name, along in (("x", [1, 0]), ("y", [0, 1]))]}))
+            {"name": name, "map": {"along": along}, "network": {"spring": "1000 N/m"}}
+            for name, along in (("x", [1, 0]), ("y", [0, 1]))]}))
         told = {}
         for critical in (None, "0.05 m/s"):
-            brakes = [{"along": along, "kind": "eddy_current", "max_damping": "5 N s/m", "residual_damping": "0.3 N s/m",
+            brakes = [{"along": along, "kind": "eddy_current", "max_damping": "5 N s/m",
+                       "residual_damping": "0.3 N s/m",
                        **({"critical_speed": critical} if critical else {})} for along in ([1, 0], [0, 1])]
             self.write("arm.json", json.dumps({
-                "dashpot_device": 1, "axes": 2, "name": "arm", "loop": {"rate": "1 kHz"}, "encoders": {"max_speed": "1 m/s"}, "motors": {},
-                "kinematics": {"kind": "cartesian", "workspace": {"x": ["-50 mm", "50 mm"], "y": ["-50 mm", "50 mm"]}}, "brakes": brakes,
+                "dashpot_device": 1, "axes": 2, "name": "arm", "loop": {"rate": "1 kHz"},
+                "encoders": {"max_speed": "1 m/s"}, "motors": {},
+                "kinematics": {"kind": "cartesian", "workspace": {"x": ["-50 mm", "50 mm"], "y": ["-50 mm", "50 mm"]}},
+                "brakes": brakes,
                 "mechanics": {"damping": "0 N s/m", "inertia": [["0.1 kg", "0 kg"], ["0 kg", "0.1 kg"]]}}))
-            told[critical] = json.loads(self.dashpot("explain", network, "--device", "arm.json", "--json").stdout)["missing_damping"]
+            told[critical] = json.loads(self.dashpot("explain", network, "--device", "arm.json",
+                                                     "--json").stdout)["missing_damping"]
         # KT/2 for each spring, less what is left of 0.3 N s/m at 20 times the critical speed.
         self.assertAlmostEqual(told[None], 0.5 - 0.3, delta=1e-9)
         self.assertAlmostEqual(told["0.05 m/s"], 0.5 - 0.3 / 401, delta=1e-9)
@@ -306,10 +321,12 @@ class AxesTest(CommandTest):
             self.assertGreater(more["share"]["worst"], least - 0.003)
             self.assertLess(more["share"]["worst"], least + 0.015)
         self.assertNotIn("on this arm two brakes", self.dashpot("explain", FIELD, "--device", "arm.json").stdout)
-        arm["kinematics"] = {"kind": "parallelogram", "links": ["80 mm", "80 mm"], "workspace": arm["kinematics"]["workspace"]}
+        arm["kinematics"] = {"kind": "parallelogram", "links": ["80 mm", "80 mm"],
+                             "workspace": arm["kinematics"]["workspace"]}
         arm["brakes"] = [{**brake, "along": along} for brake, along in zip(arm["brakes"], ([1, -1], [1, 1]))]
         self.write("arm.json", json.dumps(arm))
-        self.assertIn("two brakes, on q1 - q2 and on q1 + q2, make every damping", self.dashpot("explain", FIELD, "--device", "arm.json").stdout)
+        self.assertIn("two brakes, on q1 - q2 and on q1 + q2, make every damping",
+                      self.dashpot("explain", FIELD, "--device", "arm.json").stdout)
         told = json.loads(self.dashpot("explain", FIELD, "--device", "arm.json", "--json").stdout)
         share = next(one["share"] for one in told["candidates"] if one["name"] == "non-injecting")
         self.assertAlmostEqual(share["worst"], 1, delta=1e-6)
@@ -320,8 +337,8 @@ class AxesTest(CommandTest):
         self.assertEqual([port["name"] for port in told["ports"]], ["across", "out"])
         self.assertEqual((told["axes"], told["chosen"], told["certified"]), (2, "diagonal", True))
         non_injecting = next(c for c in told["candidates"] if c["name"] == "non-injecting")["share"]
-        # Of an isotropic field 1/(1 + |c|), c the cosine between the columns of J, at the centres of 40 x 40 parts; the field is
-        # told with 1e-9 more.
+        # Of an isotropic field 1/(1 + |c|), c the cosine between the columns of J, at the centres of 40 x 40 parts; the
+        # field is told with 1e-9 more.
         shares = []
         for i in range(40):
             for j in range(40):
@@ -337,7 +354,8 @@ class AxesTest(CommandTest):
         self.assertTrue(all(len(line) <= 100 for line in text.splitlines()), text)
         with_legend = self.dashpot("explain", FIELD, "--device", PANTOGRAPH, "--legend").stdout
         self.assertTrue(all(len(line) <= 100 for line in with_legend.splitlines()), with_legend)
-        for name in ["map", "b", "k0", "b∞", "modes", "rule", "in all directions", "in the worst one", "at", "delay-proof",
+        for name in ["map", "b", "k0", "b∞", "modes", "rule", "in all directions", "in the worst one", "at",
+                     "delay-proof",
                      *(candidate["name"] for candidate in told["candidates"])]:
             self.assertIn(name, text)
             self.assertRegex(with_legend, rf"(?m)^{name} {{{22 - len(name)}}}\S")
@@ -369,22 +387,27 @@ class AxesTest(CommandTest):
         self.assertAlmostEqual(prompt["damping_for_estimates"], late["damping_for_estimates"], delta=1e-3)
         self.assertEqual(dry["damping_for_estimates"], 0)
         self.assertGreater(late["damping_for_lag"], 0)
-        for network, device, reason in ((FIELD, "slow.json", "slew"), ("thick.json", PANTOGRAPH, "more than its brakes"),
+        for network, device, reason in ((FIELD, "slow.json", "slew"),
+                                        ("thick.json", PANTOGRAPH, "more than its brakes"),
                                         (WALL, PANTOGRAPH, "lets go by a velocity estimate")):
             text = " ".join(self.dashpot("explain", network, "--device", device).stdout.split())
             self.assertIn("not certified", text)
             self.assertIn(reason, text)
-        refused = self.dashpot("compile", "thick.json", "--device", PANTOGRAPH, status=INPUT_REFUSED, advice=True).stderr
+        refused = self.dashpot("compile", "thick.json", "--device", PANTOGRAPH, status=INPUT_REFUSED,
+                               advice=True).stderr
         self.assertIn("[axes-not-certified]", refused)
         # What the refusal asks for is enough.
         stiff = json.loads(PANTOGRAPH.read_text())
-        stiff["mechanics"]["damping"] = json.loads(re.search(r'would do: "damping": (\[.*?\]) in "mechanics"', refused)[1])
+        stiff["mechanics"]["damping"] = json.loads(re.search(r'would do: "damping": (\[.*?\]) in "mechanics"',
+                                                             refused)[1])
         self.write("stiff.json", json.dumps(stiff))
         self.dashpot("compile", "thick.json", "--device", "stiff.json", "-o", "out")
         # And hardly more: the search halves what is missing four times, and rounds up to three digits.
-        own = [float(number) for number in re.search(r"of their own, in place of (\S+) and (\S+), would do", " ".join(refused.split())).groups()]
+        own = [float(number) for number in re.search(r"of their own, in place of (\S+) and (\S+), would do",
+                                                     " ".join(refused.split())).groups()]
         enough = [float(damping.split()[0]) for damping in stiff["mechanics"]["damping"]]
-        stiff["mechanics"]["damping"] = [f"{least + 0.85 * (most - least)} N m s/rad" for least, most in zip(own, enough)]
+        stiff["mechanics"]["damping"] = [f"{least + 0.85 * (most - least)} N m s/rad"
+                                         for least, most in zip(own, enough)]
         self.write("stiff.json", json.dumps(stiff))
         self.dashpot("compile", "thick.json", "--device", "stiff.json", "-o", "out", status=INPUT_REFUSED)
         self.assertIn("N·m·s/rad of damping are missing at the joints, more than its brakes have left", refused)
@@ -394,14 +417,16 @@ class AxesTest(CommandTest):
         not, or far more than is needed."""
         device = json.loads(PANTOGRAPH.read_text())
         network = {"dashpot": 1, "axes": 2, "name": "groove", "ports": [
-            {"name": "across", "map": {"along": [1, 0]}, "network": {"parallel": [{"spring": "150 N/m"}, {"damper": "1 N s/m"}]}}]}
+            {"name": "across", "map": {"along": [1, 0]},
+             "network": {"parallel": [{"spring": "150 N/m"}, {"damper": "1 N s/m"}]}}]}
         self.write("groove.json", json.dumps(network))
 
         def compiled(limits, status=0, **more):
             for brake, limit in zip(device["brakes"], limits):
                 brake["max_damping"] = f"{limit} N m s/rad"
             self.write("device.json", json.dumps(device))
-            return self.dashpot("compile", "groove.json", "--device", "device.json", "-o", "out", status=status, **more).stderr
+            return self.dashpot("compile", "groove.json", "--device", "device.json", "-o", "out", status=status,
+                                **more).stderr
 
         refused = compiled([2.5e-3] * len(device["brakes"]), INPUT_REFUSED, advice=True)
         self.assertIn("[axes-not-certified]", refused)
@@ -414,8 +439,10 @@ class AxesTest(CommandTest):
     def test_the_steps_of_the_encoders(self):
         """Fails if explain reports less of what the encoders' steps change at the joints than they do somewhere, or far
         more, or nothing of the friction that takes it."""
-        ball = {"name": "ball", "map": {"ball": {"centre": [0, "40 mm"], "radius": "90 mm"}}, "network": {"spring": "400 N/m"}}
-        network = self.write("ball.json", json.dumps({"dashpot": 1, "axes": 2, "name": "round_spring", "ports": [ball]}))
+        ball = {"name": "ball", "map": {"ball": {"centre": [0, "40 mm"], "radius": "90 mm"}},
+                "network": {"spring": "400 N/m"}}
+        network = self.write("ball.json",
+                             json.dumps({"dashpot": 1, "axes": 2, "name": "round_spring", "ports": [ball]}))
         told = json.loads(self.dashpot("explain", network, "--device", PANTOGRAPH, "--json").stdout)["torque_of_steps"]
         half = math.pi / 65536
 
@@ -434,9 +461,11 @@ class AxesTest(CommandTest):
                     most = [max(m, abs(a - b)) for m, a, b in zip(most, there, here)]
         for j in range(2):
             self.assertLess(most[j], told[j])
-            self.assertGreater(most[j], 0.5 * told[j])  # norms of both joints together, force and bend each at its own worst place
+            # norms of both joints together, force and bend each at its own worst place
+            self.assertGreater(most[j], 0.5 * told[j])
         words = lambda device: " ".join(self.dashpot("explain", network, "--device", device).stdout.split())
-        self.assertIn("friction of 0.001 and 0.001 N m there takes what that gives, a brake none of it a step takes", words(PANTOGRAPH))
+        self.assertIn("friction of 0.001 and 0.001 N m there takes what that gives, a brake none of it a step takes",
+                      words(PANTOGRAPH))
         arm = json.loads(PANTOGRAPH.read_text())
         arm["mechanics"]["coulomb_friction"] = "10 uN m"
         self.write("smooth.json", json.dumps(arm))
@@ -444,10 +473,12 @@ class AxesTest(CommandTest):
         self.assertAlmostEqual(beyond, told[0] - 1e-5, delta=0.005 * told[0])
         slip = {**ball, "network": {"series": [{"slip": "1 N"}, {"spring": "400 N/m"}]}}
         self.write("ball.json", json.dumps({"dashpot": 1, "axes": 2, "name": "round_slip", "ports": [slip]}))
-        self.assertIn("encoder steps: the energy that they bring in by the motors is not bounded, and not counted", words(PANTOGRAPH))
+        self.assertIn("encoder steps: the energy that they bring in by the motors is not bounded, and not counted",
+                      words(PANTOGRAPH))
 
     def test_what_cannot_be_bounded_is_told_as_it_is(self):
-        """Fails if a bound beyond all numbers is printed as one, or forces are blamed where it is the way that the joints go."""
+        """Fails if a bound beyond all numbers is printed as one, or forces are blamed where it is the way that the
+        joints go."""
         field = json.loads(FIELD.read_text())
         field["parameters"]["B"] = "1e300 N s/m"
         self.write("endless.json", json.dumps(field))
@@ -468,7 +499,8 @@ class AxesTest(CommandTest):
         told = float(re.search(r"felt at the tip: up to (\S+) N s/m more", text)[1])
         added = json.loads(self.dashpot("explain", FIELD, "--device", PANTOGRAPH, "--json").stdout)["added_damping"]
         (left, right), (low, high) = ([float(end.split()[0]) * 1e-3 for end in side]
-                                      for side in json.loads(PANTOGRAPH.read_text())["kinematics"]["workspace"].values())
+                                      for side in json.loads(
+                                          PANTOGRAPH.read_text())["kinematics"]["workspace"].values())
         draw, felt = random.Random(5), []
         while len(felt) < 4000:
             q = [draw.uniform(math.pi / 2, 1.2 * math.pi), draw.uniform(-0.2 * math.pi, math.pi / 2)]
@@ -483,15 +515,16 @@ class AxesTest(CommandTest):
             (a, c), (b, d) = jacobian_of(q)
             determinant = a * d - b * c
             turns = [(d / determinant, -b / determinant), (-c / determinant, a / determinant)]  # of J⁻¹, by rows
-            xx, xy, yy = (sum(damping * turn[i] * turn[j] for damping, turn in zip(added, turns)) for i, j in ((0, 0), (0, 1), (1, 1)))
+            xx, xy, yy = (sum(damping * turn[i] * turn[j] for damping, turn in zip(added, turns))
+                          for i, j in ((0, 0), (0, 1), (1, 1)))
             felt.append((xx + yy) / 2 + math.hypot((xx - yy) / 2, xy))
         # Three digits are told, of a grid that reaches into the corners.
         self.assertLessEqual(max(felt), 1.006 * told)
         self.assertGreater(max(felt), 0.8 * told)
 
     def test_which_ports_can_be_certified(self):
-        """Fails if the note on ports that can be certified says so of one that is not, or leaves one out, or if `check` does not say of
-        them what `compile` says."""
+        """Fails if the note on ports that can be certified says so of one that is not, or leaves one out, or if `check`
+        does not say of them what `compile` says."""
         prompt = json.loads(PANTOGRAPH.read_text())
         del prompt["motors"]["amplifier_lag"]
         prompt["assumed"].remove("motors.amplifier_lag")
@@ -525,10 +558,12 @@ class AxesTest(CommandTest):
         """Fails if energy that comes out of springs that are pressed when a run begins is reported as energy that came
         from nowhere."""
         self.write("floor.json", json.dumps({"dashpot": 1, "axes": 2, "name": "soft_floor", "ports": [
-            {"name": "floor", "map": {"wall": {"through": [0, "110 mm"], "normal": [0, 1]}}, "network": {"spring": "150 N/m"}}]}))
+            {"name": "floor", "map": {"wall": {"through": [0, "110 mm"], "normal": [0, 1]}},
+             "network": {"spring": "150 N/m"}}]}))
         # In the middle of the workspace the wall is pressed by 15 mm.
         told = self.dashpot("run", "floor.json", "--device", PANTOGRAPH, "--fast", "--for", "1").stdout
-        lowest, held = re.search(r"never below (\S+) J: below zero, but the springs held (\S+) J when the run began", told).groups()
+        lowest, held = re.search(r"never below (\S+) J: below zero, but the springs held (\S+) J when the run began",
+                                 told).groups()
         self.assertAlmostEqual(float(held), 0.5 * 150 * 0.015 ** 2, delta=1e-4)
         self.assertLess(float(lowest), 0)
         self.assertGreaterEqual(float(lowest), -float(held))
@@ -543,7 +578,8 @@ class AxesTest(CommandTest):
             return "peak.json", "--device", PANTOGRAPH
         for inside in ({"ball": {"centre": ["0 mm", "100 mm"], "radius": "5 mm"}},
                        {"line": {"through": ["0 mm", "0 mm"], "direction": [0.1, 1], "radius": "5 mm"}}):
-            self.assertIn("[map-not-differentiable]", self.dashpot("explain", *map_of(**inside), status=INPUT_REFUSED).stderr)
+            self.assertIn("[map-not-differentiable]",
+                          self.dashpot("explain", *map_of(**inside), status=INPUT_REFUSED).stderr)
         self.dashpot("explain", *map_of(cavity={"centre": ["0 mm", "95 mm"], "radius": "20 mm"}))
         self.dashpot("explain", *map_of(line={"through": ["0 mm", "160 mm"], "direction": [1, 0], "radius": "50 mm"}))
 
@@ -561,9 +597,11 @@ class AxesTest(CommandTest):
         for brake in weak["brakes"]:
             brake.update(max_damping="3 mN m s/rad")
         self.write("weak.json", json.dumps(weak))
-        self.assertIn("[lacks-damping]", self.dashpot("run", FIELD, "--device", "weak.json", "--fast", "--for", "0.01").stderr)
+        self.assertIn("[lacks-damping]", self.dashpot("run", FIELD, "--device", "weak.json", "--fast", "--for",
+                                                      "0.01").stderr)
         self.write("slow.csv", "time,q1,q2\n" + "".join(f"{i / 1000},1,1\n" for i in range(5)))
-        told = self.refused("simulate", FIELD, "--device", PANTOGRAPH, "--input", "slow.csv", code="csv-rate-contradicts",
+        told = self.refused("simulate", FIELD, "--device", PANTOGRAPH, "--input", "slow.csv",
+                            code="csv-rate-contradicts",
                             status=COMMAND_LINE_WRONG).stderr
         self.assertIn("'dashpot run --motion' plays a recording of any rate", told)
         lines = (self.folder / "run.csv").read_text().splitlines()
@@ -597,8 +635,10 @@ class AxesTest(CommandTest):
         for one, same in zip(plain, other, strict=True):
             for a, b in zip(one, same):
                 self.assertAlmostEqual(a, b, delta=1e-8 * (1 + abs(a)))
-        for header, code in (("time,q1", "axes-csv-columns"), ("time,q1,q2,q2", "axes-csv-columns"), ("time,q1,q2,v1", "axes-csv-columns"),
-                             ("time,q1 [N],q2", "recording-wrong-unit"), ("time,q1 [rad],q2 [mm]", "recording-wrong-unit"),
+        for header, code in (("time,q1", "axes-csv-columns"), ("time,q1,q2,q2", "axes-csv-columns"),
+                             ("time,q1,q2,v1", "axes-csv-columns"),
+                             ("time,q1 [N],q2", "recording-wrong-unit"),
+                             ("time,q1 [rad],q2 [mm]", "recording-wrong-unit"),
                              ("time,q1 [mm],q2 [mm]", "csv-other-motion")):
             self.write("bad.csv", f"{header}\n" + "0,1,1,1"[:2 * header.count(",") + 1] + "\n")
             refused = self.refused("simulate", FIELD, "--device", arm, "--input", "bad.csv", code=code)
@@ -623,30 +663,37 @@ int main() {
   std::printf("%g %g %g\n", arm.link_masses[0], arm.link_masses[1], arm.joints[1].loop.jitter);
 }
 """)
-        subprocess.run([shutil.which("g++") or "c++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-I", SOURCE / "runtime/include",
+        subprocess.run([shutil.which("g++") or "c++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-I",
+                        SOURCE / "runtime/include",
                         "-I", ".", "facts.cpp", "-o", "facts"], cwd=self.folder, check=True)
         told = subprocess.run([self.folder / "facts"], text=True, capture_output=True, check=True).stdout
         self.assertEqual(told, "0 0.025 0.12 30 0.001 0.002 1\n0.02 0.015 5e-05\n")
 
     def test_what_knows_one_axis_says_so(self):
         self.assertIn("[several-axes]", self.dashpot("export", "--to", "generic", FIELD, status=INPUT_REFUSED).stderr)
-        self.assertIn("[axes-differ]", self.dashpot("report", FIELD, "--device", ONE_AXIS, "-o", "a.html", status=INPUT_REFUSED).stderr)
-        self.assertIn("[device-of-several-axes]", self.dashpot("device", PANTOGRAPH, "--target", "c99", "-o", ".", status=INPUT_REFUSED).stderr)
+        self.assertIn("[axes-differ]", self.dashpot("report", FIELD, "--device", ONE_AXIS, "-o", "a.html",
+                                                    status=INPUT_REFUSED).stderr)
+        self.assertIn("[device-of-several-axes]",
+                      self.dashpot("device", PANTOGRAPH, "--target", "c99", "-o", ".", status=INPUT_REFUSED).stderr)
         self.assertIn("'unix:none': No such file or directory [cannot-start-device]",
-                      self.dashpot("run", FIELD, "--device", PANTOGRAPH, "--port", "unix:none", status=INPUT_REFUSED).stderr)
+                      self.dashpot("run", FIELD, "--device", PANTOGRAPH, "--port", "unix:none",
+                                   status=INPUT_REFUSED).stderr)
         self.assertIn("[axes-differ]", self.dashpot("run", FIELD, "--device", ONE_AXIS, status=INPUT_REFUSED).stderr)
         for target in ("hal", "fmi2", "fmi3", "python", "wasm"):
-            self.assertIn("[target-on-two-axes]", self.dashpot("compile", FIELD, "--target", target, status=None).stderr, target)
+            self.assertIn("[target-on-two-axes]",
+                          self.dashpot("compile", FIELD, "--target", target, status=None).stderr, target)
         self.assertIn("[option-on-two-axes]", self.dashpot("compile", FIELD, "--batch", status=INPUT_REFUSED).stderr)
         kelvin = SOURCE / "networks/paper/kelvin.json"
         for network, device in ((FIELD, ONE_AXIS), (kelvin, PANTOGRAPH)):
-            self.assertIn("[axes-differ]", self.dashpot("explain", network, "--device", device, status=INPUT_REFUSED).stderr)
+            self.assertIn("[axes-differ]", self.dashpot("explain", network, "--device", device,
+                                                        status=INPUT_REFUSED).stderr)
         refused = self.dashpot("compile", FIELD, "--decomposition", "velocity-free", status=INPUT_REFUSED).stderr
         self.assertIn("[rule-of-brakes]", refused)
         refused = self.dashpot("compile", FIELD, "--state-input", "velocity", status=INPUT_REFUSED).stderr
         self.assertIn("[ports-follow-position]", refused)
         self.write("motion.csv", "time,x,y\n0,0,0\n")
-        self.assertIn("[axes-csv-columns]", self.dashpot("simulate", FIELD, "--input", "motion.csv", status=INPUT_REFUSED).stderr)
+        self.assertIn("[axes-csv-columns]", self.dashpot("simulate", FIELD, "--input", "motion.csv",
+                                                         status=INPUT_REFUSED).stderr)
         self.dashpot("check", FIELD, BALL, WALL, PANTOGRAPH)
 
 

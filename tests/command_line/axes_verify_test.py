@@ -9,7 +9,8 @@ from dashpot_command import FIG_5, INPUT_REFUSED, SOURCE, CommandTest
 from verify_test import numbers_of
 
 LONGEST = 1.5e-4  # T_max of PANTOGRAPH [s]
-SERIAL = {"kind": "serial", "links": ["80 mm", "70 mm"], "workspace": {"x": ["-40 mm", "40 mm"], "y": ["80 mm", "120 mm"]}}
+SERIAL = {"kind": "serial", "links": ["80 mm", "70 mm"],
+          "workspace": {"x": ["-40 mm", "40 mm"], "y": ["80 mm", "120 mm"]}}
 
 # Ports with modes, with slips, behind a line and behind a cavity.
 MIXED = """{ "dashpot": 1, "axes": 2, "name": "mixed", "ports": [
@@ -29,7 +30,8 @@ def next_to(literal, away):
 
 def constants_of(header):
     """Every constant of the class: its name, and where its number stands."""
-    return [(m[1], m.start(2), m.end(2)) for m in re.finditer(r"static constexpr scalar (\w+) = (-?[\d.e+-]+);", header)]
+    return [(m[1], m.start(2), m.end(2)) for m in re.finditer(r"static constexpr scalar (\w+) = (-?[\d.e+-]+);",
+                                                              header)]
 
 
 class AxesVerify(CommandTest):
@@ -66,9 +68,11 @@ class AxesVerify(CommandTest):
 
     # If this fails, ports that relax cannot be certified without a contact, or `faithful` takes another b than b∞.
     def test_faithful_ports_that_relax_are_certified(self):
-        relaxing = {"parallel": [{"spring": "60 N/m"}, {"damper": "0.4 N s/m"}, {"series": [{"spring": "40 N/m"}, {"damper": "2 N s/m"}]}]}
+        relaxing = {"parallel": [{"spring": "60 N/m"}, {"damper": "0.4 N s/m"},
+                                 {"series": [{"spring": "40 N/m"}, {"damper": "2 N s/m"}]}]}
         file = {"dashpot": 1, "axes": 2, "name": "relaxing", "ports": [
-            {"name": "across", "map": {"along": [1, 0]}, "network": relaxing}, {"name": "out", "map": {"along": [0, 1]}, "network": relaxing}]}
+            {"name": "across", "map": {"along": [1, 0]}, "network": relaxing},
+            {"name": "out", "map": {"along": [0, 1]}, "network": relaxing}]}
         self.write("relaxing.json", json.dumps(file))
         told = self.dashpot("compile", "relaxing.json", "--device", "near.json").stderr
         self.assertIn("[nothing-proved]", told)
@@ -100,7 +104,8 @@ class AxesVerify(CommandTest):
                 self.assertIn("recomputed in 100 digits", said)
                 self.assertEqual(said.rstrip().endswith("; certified"), told, said)
                 if not told:
-                    self.assertIn("[verified-uncertified]", self.verified(header, certificate, status=INPUT_REFUSED).stderr)
+                    self.assertIn("[verified-uncertified]",
+                                  self.verified(header, certificate, status=INPUT_REFUSED).stderr)
 
     # If this fails, a constant that is not the nearest to the network's or the device's passes, where the certificate
     # has been edited with it.
@@ -124,9 +129,11 @@ class AxesVerify(CommandTest):
                 if float(header[begin:end]) == 0:
                     continue
                 # Of a port it is told as the port's own law calls it, and of springs and dampers alone by its kind.
-                own = [name] + [re.sub(r"_\d+$", "", name[len(port) + 1:]) for port in ports if name.startswith(port + "_")]
+                own = [name] + [re.sub(r"_\d+$", "", name[len(port) + 1:]) for port in ports
+                                if name.startswith(port + "_")]
                 told = re.findall(r"error: '(\w+)'", refused)
-                self.assertTrue(any(one == kind or one.endswith("_" + kind) for one in own for kind in told), f"{name}\n{refused}")
+                self.assertTrue(any(one == kind or one.endswith("_" + kind) for one in own for kind in told),
+                                f"{name}\n{refused}")
 
     # If this fails, a header passes that is not the one that the certificate was written with.
     def test_single_constants_of_the_header(self):
@@ -141,9 +148,11 @@ class AxesVerify(CommandTest):
         edited = header[:begin] + next_to(header[begin:end], 0) + header[end:]
         self.assertIn("'added_damping'", self.verified(edited, certificate, status=INPUT_REFUSED).stderr)
         self.assertIn("[code-differs]", self.verified(
-            header.replace("x_by_q1 * across_force", "y_by_q1 * across_force", 1), certificate, status=INPUT_REFUSED).stderr)
+            header.replace("x_by_q1 * across_force", "y_by_q1 * across_force", 1), certificate,
+            status=INPUT_REFUSED).stderr)
         self.assertIn("[banner-differs]", self.verified(
-            header.replace("certified for any motion", "certified for all motion", 1), certificate, status=INPUT_REFUSED).stderr)
+            header.replace("certified for any motion", "certified for all motion", 1), certificate,
+            status=INPUT_REFUSED).stderr)
 
     # If this fails, a certificate of two axes that verify refuses for its size is written without a word.
     def test_parts_that_are_too_large(self):
@@ -166,10 +175,12 @@ class AxesVerify(CommandTest):
             stated = json.loads(certificate)
             stated["passivity"][key] = math.nextafter(stated["passivity"][key], 0)
             self.assertIn("[bound-wrong]", self.verified(header, json.dumps(stated), status=INPUT_REFUSED).stderr, key)
-        for change in (lambda c: c["passivity"].update(certified=False), lambda c: c["passivity"].update(worst=[0.0, 0.1]),
+        for change in (lambda c: c["passivity"].update(certified=False),
+                       lambda c: c["passivity"].update(worst=[0.0, 0.1]),
                        lambda c: c["passivity"].update(weight=[0.004, 0.004]), lambda c: c["loop"].update(jitter=0.0),
                        lambda c: c["ports"][1].update(damping=1.0000000000000002), lambda c: c["ports"].pop(),
-                       lambda c: c["passivity"]["added_damping"].pop(), lambda c: c["law"].update(decomposition="virtual"),
+                       lambda c: c["passivity"]["added_damping"].pop(),
+                       lambda c: c["law"].update(decomposition="virtual"),
                        lambda c: c.update(network_file=c["network_file"].replace("100 N/m", "101 N/m")),
                        lambda c: c.update(device_file=c["device_file"].replace('"50 us"', '"40 us"'))):
             stated = json.loads(certificate)
@@ -208,21 +219,25 @@ class AxesVerify(CommandTest):
         self.assertLessEqual(float(share), 100)
 
     def test_late_torques_at_places(self):
-        """Fails if verify looks for another need of torques that act samples late than the bound has: more, or far less."""
+        """Fails if verify looks for another need of torques that act samples late than the bound has: more, or far
+        less."""
         arm = json.loads((self.folder / "prompt.json").read_text())
         arm["loop"]["delay_samples"] = 2
         for encoder in arm["encoders"]:
             encoder["max_speed"] = "1 rad/s"
         self.write("late.json", json.dumps(arm))
         header, certificate = self.compiled(FIELD, "--device", "late.json")
-        share = re.search(r"over the workspace, ([\d.]+) % are needed at one of", self.verified(header, certificate).stdout)[1]
+        share = re.search(r"over the workspace, ([\d.]+) % are needed at one of",
+                          self.verified(header, certificate).stdout)[1]
         self.assertLessEqual(float(share), 100)
         self.assertGreater(float(share), 95)  # 1 % of it is the search's; in three samples joints go 0.5 mrad
 
     # If this fails, a contact that begins in front of where its map does is certified as if it pushed later.
     def test_surfaces_elsewhere(self):
-        wall = lambda name, y, at: self.write(f"{name}.json", json.dumps({"dashpot": 1, "axes": 2, "name": name, "ports": [{
-            "name": "wall", "map": {"wall": {"through": [0, f"{y} mm"], "normal": [0, -1]}}, "network": {"spring": "300 N/m"},
+        wall = lambda name, y, at: self.write(f"{name}.json",
+                                              json.dumps({"dashpot": 1, "axes": 2, "name": name, "ports": [{
+            "name": "wall", "map": {"wall": {"through": [0, f"{y} mm"], "normal": [0, -1]}},
+            "network": {"spring": "300 N/m"},
             "contact": {"at": f"{at} mm"}}]}))
         needed = []
         for name, y, at in (("there", 80, 0), ("early", 110, -30), ("late", 70, 10)):

@@ -16,8 +16,8 @@ TWENTY = SOURCE / "tests/responses/networks/twenty_branches.json"
 SEED = 20090911
 LONG = os.environ.get("DASHPOT_LONG") == "1"
 
-# Straight and rolled, position and velocity driven, nodal, in single precision by every scheme of the states, on a device
-# with delay, lag, filter and a motor's limit, and by the hold certificate.
+# Straight and rolled, position and velocity driven, nodal, in single precision by every scheme of the states, on a
+# device with delay, lag, filter and a motor's limit, and by the hold certificate.
 LAWS = [[FIG_5], [PAPER / "bridge.json", "--rate", "3000"], [FIG_5, "--state-input", "velocity"],
         [FIG_5, "--scalar", "float"], [FIG_5, "--scalar", "float", "--rate", "100000"],
         [PAPER / "generalised_kelvin_two.json", "--scheme", "backward-euler", "--state-input", "nodal"],
@@ -29,60 +29,74 @@ LAWS = [[FIG_5], [PAPER / "bridge.json", "--rate", "3000"], [FIG_5, "--state-inp
         [FIG_5, "--device", SOURCE / "runtime/devices/phantom_single_motor.json"]]
 GENERATED = SOURCE / "generated"
 # The options, other than the defaults, with which the headers of a folder in generated/ are made.
-FORMS = {"forms/backward_euler": ["--scheme", "backward-euler"], "forms/nodal": ["--scheme", "backward-euler", "--state-input", "nodal"],
+FORMS = {"forms/backward_euler": ["--scheme", "backward-euler"],
+         "forms/nodal": ["--scheme", "backward-euler", "--state-input", "nodal"],
          "forms/velocity": ["--state-input", "velocity"], "forms/float_delta": ["--scalar", "float"],
-         "forms/float_compensated": ["--scalar", "float", "--rate", "100000"], "forms/rolled_avx512": ["--vector", "avx512"],
+         "forms/float_compensated": ["--scalar", "float", "--rate", "100000"],
+         "forms/rolled_avx512": ["--vector", "avx512"],
          "forms/constant_time": ["--constant-time"]}
 
 # Edits of the code around the constants, each of which makes another law of it or one that is not known.
 CODE = [("position_change = position - last_position_", "position_change = position + last_position_"),
         ("last_position_ = sampled_position_;", "last_position_ = sampled_position_change_;"),
-        ("return {damping, force};", "return {damping, force + force};"), ("using scalar = double", "using scalar = int"),
+        ("return {damping, force};", "return {damping, force + force};"),
+        ("using scalar = double", "using scalar = int"),
         ("return {damping, force};", ""), ("scalar position, scalar velocity", "scalar velocity, scalar position"),
         ("unsigned set(const parameters&) noexcept { return 0; }",
          "unsigned set(const parameters&) noexcept { relaxed_force_ = 1; return 0; }"),
         ("#pragma once", "#pragma once\n#define position velocity"), ("#pragma once", "#pragma once /* */"),
         ("  void update() noexcept {", "  void update() noexcept {\n    B2_K2_force_ = 3;"),
-        ("    relaxed_force_ = 0;", "    relaxed_force_ = 7;"), ("scalar relaxed_force_ = 0;", "scalar relaxed_force_ = 2;"),
+        ("    relaxed_force_ = 0;", "    relaxed_force_ = 7;"),
+        ("scalar relaxed_force_ = 0;", "scalar relaxed_force_ = 2;"),
         ("scalar last_position_ = 0;", "scalar last_position_ = 0; static inline int more = 0;"),
         ("scalar static_stiffness = 5.0;", "scalar static_stiffness = 050.0;"),
         ("scalar static_stiffness = 5.0;", "scalar static_stiffness = 5.0f;"),
         ("B2_K2_decay, B2_K2_force_,", "B1_K1_decay, B2_K2_force_,"),
         ('device = "ideal";', 'device = "//"; static inline int more = 0;'),
         ('device = "ideal";', 'device = R"(\n//)"; static inline int more = 0;\n"";'),
-        # What hides an argument, lasts for one call alone, drops a fraction, or returns, stops or assigns where a guard would stand.
+        # What hides an argument, lasts for one call alone, drops a fraction, or returns, stops or assigns where a guard
+        # would stand.
         ("  scalar last_position_ = 0;", "  scalar last_position_ = 0;\n  scalar velocity = 0;"),
         ("    const scalar position_change =", "    scalar more = 0;\n    const scalar position_change ="),
-        ("    const scalar position_change =", "    static constexpr bool velocity_gain = true;\n    const scalar position_change ="),
+        ("    const scalar position_change =",
+         "    static constexpr bool velocity_gain = true;\n    const scalar position_change ="),
         ("    const scalar position_change =", "    using scalar = int;\n    const scalar position_change ="),
         ("    const scalar position_change =", "    using vector = int;\n    const scalar position_change ="),
         ("static constexpr scalar velocity_gain", "static constexpr unsigned velocity_gain"),
         ("  scalar last_position_ = 0;", "  unsigned last_position_ = 0;"),
         ("    return {damping, force};", "    return {damping, force + force};\n    return {damping, force};"),
-        ("    sampled_ = true;\n", ""), ("    if (!sampled_) return;\n    sampled_ = false;", "    sampled_ = false;\n    if (!sampled_) return;"),
+        ("    sampled_ = true;\n", ""), ("    if (!sampled_) return;\n    sampled_ = false;",
+                                         "    sampled_ = false;\n    if (!sampled_) return;"),
         ("all_finite(force)", "all_finite(force) || (true)"), ("all_finite(force)", "all_finite(relaxed_force_ = 7)")]
 # A name that means another thing in a loop than after it, where `kept` is what it says before.
-SHADOWED = [("    const vector sampled_position_change =", "    const scalar kept = KEPT;\n    const vector sampled_position_change ="),
-            ("        vector::put(mode_force_, j, vector::at(mode_gain", "        const vector kept = 1;\n        vector::put(mode_force_, j, vector::at(mode_gain"),
+SHADOWED = [("    const vector sampled_position_change =",
+             "    const scalar kept = KEPT;\n    const vector sampled_position_change ="),
+            ("        vector::put(mode_force_, j, vector::at(mode_gain",
+             "        const vector kept = 1;\n        vector::put(mode_force_, j, vector::at(mode_gain"),
             ("last_position_ = sampled_position_;", "last_position_ = sampled_position_ * kept;")]
 # Edits of a certificate, each of which makes a false statement of it, or a proof of none.
-FALSE = {"less is needed": lambda c: c["passivity"].update(needed_damping=c["passivity"]["needed_damping"] * (1 - 1e-7)),
+FALSE = {"less is needed": lambda c: c["passivity"].update(needed_damping=c["passivity"]["needed_damping"] *
+                                                           (1 - 1e-7)),
          "the hold certificate": lambda c: c["passivity"].update(proof="hold"),
-         "more is assured": lambda c: c["passivity"].update(assured_damping=c["passivity"]["assured_damping"] * (1 + 1e-9)),
+         "more is assured": lambda c: c["passivity"].update(assured_damping=c["passivity"]["assured_damping"] *
+                                                            (1 + 1e-9)),
          "no storage function": lambda c: c.update(storage=None),
          "a shorter period": lambda c: c["loop"].update(sample_period=0.0009),
          "jitter": lambda c: c["loop"].update(jitter=1e-6), "a lag": lambda c: c["loop"].update(amplifier_lag=1e-5),
          "a late command": lambda c: c["loop"].update(write_latest=1e-6),
-         "a delay": lambda c: c["loop"].update(delay_samples=1), "a filter": lambda c: c["loop"].update(estimator="kalman"),
+         "a delay": lambda c: c["loop"].update(delay_samples=1),
+         "a filter": lambda c: c["loop"].update(estimator="kalman"),
          "another rate": lambda c: c["loop"].update(estimator_coefficients=[999.9]),
-         "a row less": lambda c: c["storage"]["matrix"].pop(), "a short row": lambda c: c["storage"]["matrix"][-1].pop(),
+         "a row less": lambda c: c["storage"]["matrix"].pop(),
+         "a short row": lambda c: c["storage"]["matrix"][-1].pop(),
          "a negative P": lambda c: c["storage"]["matrix"][0].__setitem__(0, -1e9)}
 
 
 NUMBER = r"-?\d[\d.]*(?:e[-+]?\d+)?"
-# Of a straight law, a rolled one, one that follows the estimate, one of springs and dampers alone, and one on a device with a filter,
-# delay, lag and jitter.
-EDITED = [[FIG_5], [TWENTY], [FIG_5, "--state-input", "velocity"], [PAPER / "kelvin.json"], [FIG_5, "--device", PANTOGRAPH]]
+# Of a straight law, a rolled one, one that follows the estimate, one of springs and dampers alone, and one on a device
+# with a filter, delay, lag and jitter.
+EDITED = [[FIG_5], [TWENTY], [FIG_5, "--state-input", "velocity"], [PAPER / "kelvin.json"],
+          [FIG_5, "--device", PANTOGRAPH]]
 
 
 def estimate(loop, w, change):
@@ -98,7 +112,8 @@ def estimate(loop, w, change):
 
 
 def needs_at_least(header, loop):
-    """Colgate & Schenkel's S(θ) at its largest on a grid, for holds of the sample period; with a lag as theory 6b has it."""
+    """Colgate & Schenkel's S(θ) at its largest on a grid, for holds of the sample period; with a lag as theory 6b has
+    it."""
     constants = {}
     for name, several, values in re.findall(r"constexpr \w+ (\w+)(\[\d+\])? = \{?([^;{}]*)\}?;", header):
         constants[name] = [float(value) for value in re.findall(NUMBER, values)] if several or "." in values else []
@@ -107,13 +122,16 @@ def needs_at_least(header, loop):
     for name in constants:
         mode, _, kind = name.rpartition("_")
         if kind not in ("decay", "loss"): continue
-        others = [constants.get(f"{mode}_{drive}") or [0] * len(constants[name]) for drive in ("gain", "velocity_drive")]
-        modes += [(value if kind == "decay" else 1 - value, *drives) for value, *drives in zip(constants[name], *others)]
+        others = [constants.get(f"{mode}_{drive}") or [0] * len(constants[name])
+                  for drive in ("gain", "velocity_drive")]
+        modes += [(value if kind == "decay" else 1 - value, *drives)
+                  for value, *drives in zip(constants[name], *others)]
     period, lag, most = loop["sample_period"], loop["amplifier_lag"], 0
     for i in range(1, 2001):
         angle = math.pi * (i / 2000) ** 3
         w = -1 if i == 2000 else cmath.exp(-1j * angle)
-        change = complex(2 * math.sin(angle / 2) ** 2, 0 if i == 2000 else math.sin(angle))  # 1 - w, with all its digits
+        # 1 - w, with all its digits
+        change = complex(2 * math.sin(angle / 2) ** 2, 0 if i == 2000 else math.sin(angle))
         of_position, of_velocity = first.get("step_stiffness", 0), first.get("velocity_gain", 0)
         for decay, gain, drive in modes:
             of_position += gain * w / (1 - decay * w)
@@ -136,10 +154,12 @@ def falsehood(header, certificate):
     off = 1e-12
     loop, said = certificate["loop"], certificate["passivity"]
     told = {name: float(value) for name, value in re.findall(rf"constexpr \w+ (\w+) = ({NUMBER});", header)}
-    if told["sample_period"] != loop["sample_period"] or told["loop_delay"] != loop["delay_samples"]: return "another loop"
+    if told["sample_period"] != loop["sample_period"] or told["loop_delay"] != loop["delay_samples"]:
+        return "another loop"
     if said["needed_damping"] < needs_at_least(header, loop) * (1 - off): return "less is needed than S says"
     share = 1 / (1 + (loop["largest_speed"] / loop["critical_speed"]) ** 2) if loop["critical_speed"] else 1
-    assured = share * ((1 - loop["brake_tolerance"]) * told["damping"] + loop["residual_damping"]) + loop["device_damping"]
+    assured = share * ((1 - loop["brake_tolerance"]) * told["damping"] +
+                       loop["residual_damping"]) + loop["device_damping"]
     if said["certified"] and assured < said["needed_damping"] * (1 - off): return "it is not there"
     return "more is assured" if said["assured_damping"] > assured * (1 + 2 * off) else ""
 
@@ -170,7 +190,8 @@ class CheckTest(CommandTest):
     def said(self, header, certificate):
         files = [self.write("checked/law.hpp", header), self.write("checked/law.json", json.dumps(certificate))]
         done = subprocess.run([CHECK, *files], capture_output=True, text=True, timeout=60)
-        begins = {0: "^proved: with a damping of ", 4: "^proved: with a damping of ", 1: "^not proved: ", 3: "^not proved here: "}
+        begins = {0: "^proved: with a damping of ", 4: "^proved: with a damping of ", 1: "^not proved: ",
+                  3: "^not proved here: "}
         self.assertIn(done.returncode, begins, done.stderr)
         self.assertRegex(done.stdout, begins[done.returncode])
         self.status = done.returncode
@@ -196,8 +217,10 @@ class CheckTest(CommandTest):
                 if folder == "axes" or stem.endswith("_batch"):  # which have no certificate
                     is_linear, certificate = False, fig_5
                 else:
-                    network = next(path for path in (SOURCE / "networks" / folder / f"{stem}.json", PAPER / f"{stem}.json",
-                                                     SOURCE / "networks/tunable" / f"{stem}.json", TWENTY.with_stem(stem)) if path.exists())
+                    network = next(path for path in (SOURCE / "networks" / folder / f"{stem}.json",
+                                                     PAPER / f"{stem}.json",
+                                                     SOURCE / "networks/tunable" / f"{stem}.json",
+                                                     TWENTY.with_stem(stem)) if path.exists())
                     header, certificate = self.compiled([network, *FORMS.get(folder, [])])
                     self.assertEqual(header, committed.read_text())
                     is_linear = not (certificate["passivity"]["any_regime"] or certificate["passivity"]["any_value"])
@@ -213,10 +236,12 @@ class CheckTest(CommandTest):
         files = sorted((SOURCE / "compiler/check").iterdir())
         lines = [line.strip() for file in files for line in file.read_text().splitlines()]
         code = [line for line in lines if line and not line.startswith("//")]
-        self.assertIn(f"{len(lines)} lines in `compiler/check/`, {len(code)} without remarks and blank lines,", (SOURCE / "README.md").read_text())
+        self.assertIn(f"{len(lines)} lines in `compiler/check/`, {len(code)} without remarks and blank lines,",
+                      (SOURCE / "README.md").read_text())
         for file in files:
             included = re.findall(r'(?m)^#include ["<](\S+)[">]', file.read_text())
-            self.assertTrue(all(name == "check.hpp" or name.startswith(("boost/multiprecision/", "nlohmann/")) or "." not in name
+            self.assertTrue(all(name == "check.hpp" or name.startswith(("boost/multiprecision/", "nlohmann/"))
+                                or "." not in name
                                 for name in included), (file, included))
 
     # If this failed, a text that is no header or no certificate would be proved, or a file that is not there.
@@ -270,10 +295,12 @@ class CheckTest(CommandTest):
                 self.assertTrue(accepted, words)
                 self.assertRegex(words, "for holds of any lengths up to 0.00015")
                 gain, needed = certificate["constants"]["velocity_gain"][0], certificate["passivity"]["needed_damping"]
-                spring = certificate["constants"]["static_stiffness"][0] + 2 * certificate["constants"]["step_stiffness"][0]
+                constants = certificate["constants"]
+                spring = constants["static_stiffness"][0] + 2 * constants["step_stiffness"][0]
                 self.assertLess(needed, 1.5 * (most * abs(gain) + 3 * spring * 0.0001 / 2))
                 edits = {"less": lambda c: c["passivity"].update(needed_damping=needed * 0.97),
-                         "longer": lambda c: c["loop"].update(window=window + 1), "later": lambda c: c["loop"].update(delay_samples=2),
+                         "longer": lambda c: c["loop"].update(window=window + 1),
+                         "later": lambda c: c["loop"].update(delay_samples=2),
                          "fit": lambda c: c["loop"].update(best_fit=fit == "end"),
                          "hold": lambda c: c["passivity"].update(proof="hold"),
                          "lag": lambda c: c["loop"].update(amplifier_lag=1e-6),
@@ -289,7 +316,8 @@ class CheckTest(CommandTest):
                 self.assertFalse(self.accepts(more, certificate))
                 for edited in (more, header):
                     files = self.write("law.json", json.dumps(certificate)), self.write("law.hpp", edited)
-                    self.dashpot("verify", "--allow-uncertified", *files, status=0 if edited == header else INPUT_REFUSED)
+                    self.dashpot("verify", "--allow-uncertified", *files, status=0 if edited == header
+                                 else INPUT_REFUSED)
 
     # If this failed, a motor that follows a velocity over measured intervals would be refused, or be proved for other
     # intervals, for an estimate over the nominal period, later, or with less.
@@ -309,9 +337,11 @@ class CheckTest(CommandTest):
         self.assertRegex(words, "for holds of any lengths up to 0.00015")
         self.assertNotEqual(certificate["constants"]["velocity_gain"][0], 0)
         needed = certificate["passivity"]["needed_damping"]
-        edits = {"less": lambda c: c["passivity"].update(needed_damping=needed * 0.98), "jitter": lambda c: c["loop"].update(jitter=6e-5),
+        edits = {"less": lambda c: c["passivity"].update(needed_damping=needed * 0.98),
+                 "jitter": lambda c: c["loop"].update(jitter=6e-5),
                  "all": lambda c: c["loop"].update(jitter=1e-4), "later": lambda c: c["loop"].update(delay_samples=2),
-                 "nominal": lambda c: c["loop"].update(estimator="backward_difference", window=1, estimator_coefficients=[1e4]),
+                 "nominal": lambda c: c["loop"].update(estimator="backward_difference", window=1,
+                                                       estimator_coefficients=[1e4]),
                  "none": lambda c: c.update(storage=None)}
         for what, edit in edits.items():
             edited = json.loads(json.dumps(certificate))
@@ -327,26 +357,34 @@ class CheckTest(CommandTest):
         prompt = json.loads(PANTOGRAPH.read_text())
         del prompt["motor"]["amplifier_lag"]
         prompt["assumed"].remove("motor.amplifier_lag")
-        spring = self.write("spring.json", '{"dashpot": 1, "name": "spring", "network": {"spring": "40 N/m", "name": "K"}}')
-        cases = ((FIG_5, json.loads(PANTOGRAPH.read_text()), 0), (FIG_5, prompt, 0), (FIG_5, prompt, 1), (spring, prompt, 0), (spring, prompt, 1))
+        spring = self.write("spring.json",
+                            '{"dashpot": 1, "name": "spring", "network": {"spring": "40 N/m", "name": "K"}}')
+        cases = ((FIG_5, json.loads(PANTOGRAPH.read_text()), 0), (FIG_5, prompt, 0), (FIG_5, prompt, 1),
+                 (spring, prompt, 0), (spring, prompt, 1))
         punctual = []
         for always in ("20 us", ["20 us", "20 us"]):  # may be said in both ways
             prompt["loop"].update(write_delay=always)
-            punctual.append(self.compiled([spring, "--device", self.write("late.json", json.dumps(prompt))])[1]["passivity"])
+            punctual.append(self.compiled([spring, "--device",
+                                           self.write("late.json", json.dumps(prompt))])[1]["passivity"])
         self.assertEqual(*punctual)
         for network, device, delays in cases:
             device["loop"].update(write_delay=["10 us", "30 us"], delay_samples=delays)
             with self.subTest(network=network, lag="amplifier_lag" in device["motor"], delays=delays):
-                law = [network, "--device", self.write("late.json", json.dumps(device)), "--decomposition", "zero-frequency"]
+                law = [network, "--device", self.write("late.json", json.dumps(device)), "--decomposition",
+                       "zero-frequency"]
                 header, certificate = self.compiled(law)
                 accepted, words = self.said(header, certificate)
                 self.assertTrue(accepted, words)
                 self.assertRegex(words, "for holds of any lengths up to 0.00017")
-                needed, by_hold = certificate["passivity"]["needed_damping"], certificate["passivity"]["proof"] == "hold"
+                needed = certificate["passivity"]["needed_damping"]
+                by_hold = certificate["passivity"]["proof"] == "hold"
                 self.assertEqual(by_hold, network == spring)
-                edits = {"less": lambda c: c["passivity"].update(needed_damping=needed * 0.97), "later": lambda c: c["loop"].update(write_latest=3.2e-5),
-                         "overtaken": lambda c: c["loop"].update(write_latest=6e-5), "delayed": lambda c: c["loop"].update(delay_samples=2),
-                         "sooner": lambda c: c["loop"].update(write_earliest=0), "backward": lambda c: c["loop"].update(write_earliest=4e-5)}
+                edits = {"less": lambda c: c["passivity"].update(needed_damping=needed * 0.97),
+                         "later": lambda c: c["loop"].update(write_latest=3.2e-5),
+                         "overtaken": lambda c: c["loop"].update(write_latest=6e-5),
+                         "delayed": lambda c: c["loop"].update(delay_samples=2),
+                         "sooner": lambda c: c["loop"].update(write_earliest=0),
+                         "backward": lambda c: c["loop"].update(write_earliest=4e-5)}
                 if not by_hold: edits["none"] = lambda c: c.update(storage=None)
                 for what, edit in edits.items():
                     edited = json.loads(json.dumps(certificate))
@@ -359,14 +397,16 @@ class CheckTest(CommandTest):
     # reason.
     def test_static_curve(self):
         net = self.write("curve.json", network('{ "parallel": [ { "spring": 400 }, { "damper": 2 } ] }', "curve",
-                                               '"static": { "power": 1.5, "force": "2 N", "at": "10 mm" }, "valid": { "displacement": "10 mm" },'))
+                                               '"static": { "power": 1.5, "force": "2 N", "at": "10 mm" }, "valid": { '
+                                               '"displacement": "10 mm" },'))
         words = self.said(*self.compiled([net, "--device", PANTOGRAPH]))[1]
         self.assertEqual(self.status, 3)
         self.assertIn("curves", words)
 
     # If this failed, a user who asks about a law of two axes would be shown a library's message about a missing key.
     def test_two_axes(self):
-        words = self.said(*self.compiled([SOURCE / "networks/axes/kelvin_field.json", "--device", SOURCE / "runtime/devices/pantograph_2dof.json"]))[1]
+        words = self.said(*self.compiled([SOURCE / "networks/axes/kelvin_field.json", "--device",
+                                          SOURCE / "runtime/devices/pantograph_2dof.json"]))[1]
         self.assertEqual(self.status, 3)
         self.assertIn("two axes", words)
 
@@ -378,7 +418,8 @@ class CheckTest(CommandTest):
         certificate["passivity"]["certified"] = True
         self.assertFalse(self.accepts(header, certificate))
         self.assertEqual(self.status, 1)
-        certificate["passivity"].update(certified=False, minimum_damping=certificate["passivity"]["minimum_damping"] * 0.999)
+        certificate["passivity"].update(certified=False,
+                                        minimum_damping=certificate["passivity"]["minimum_damping"] * 0.999)
         self.assertFalse(self.accepts(header, certificate))
 
     def verifies(self, header, certificate):
@@ -396,13 +437,15 @@ class CheckTest(CommandTest):
             header, certificate = cases[i % len(cases)]
             stated, is_slight = json.loads(json.dumps(certificate)), False
             if chance.random() < 0.5:
-                begin, end = chance.choice(list(re.finditer(r"constexpr (?:scalar|unsigned) [^=]* = ([^;]*);", header))).span(1)
+                begin, end = chance.choice(list(re.finditer(r"constexpr (?:scalar|unsigned) [^=]* = ([^;]*);",
+                                                            header))).span(1)
                 place = chance.choice(list(re.finditer(NUMBER, header[begin:end])))
                 value = json.loads(place[0])
                 where = begin + place.start(), repr(edited_number(chance, value) or 1.0)
                 header = header[:where[0]] + where[1] + header[begin + place.end():]
             else:
-                among = list(numbers_of(stated if chance.random() < 0.5 else {key: stated[key] for key in ("passivity", "loop")}))
+                among = list(numbers_of(stated if chance.random() < 0.5
+                                        else {key: stated[key] for key in ("passivity", "loop")}))
                 where = chance.choice(among)
                 inner = stated
                 for key in where[:-1]: inner = inner[key]

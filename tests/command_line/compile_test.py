@@ -30,12 +30,17 @@ class Files(CommandTest):
         self.assertIn("class kelvin {", (self.folder / "out/kelvin.hpp").read_text())
 
     def test_arithmetic_without_numbers_that_are_none(self):
-        """Fails if a header is compiled where a check for NaN is always passed, so that one such input stays in the states for ever."""
+        """Fails if a header is compiled where a check for NaN is always passed, so that one such input stays in the
+        states for ever."""
         self.dashpot("compile", "kelvin.json")
-        self.write("main.cpp", '#include "kelvin.hpp"\nint main() { dashpot::generated::kelvin law; return law.step(0, 0).force != 0; }\n')
-        for flags, status in [([], 0), (["-ffast-math"], 1), (["-ffinite-math-only"], 1), (["-Ofast"], 1), (["-fno-math-errno"], 0)]:
+        self.write("main.cpp",
+                   '#include "kelvin.hpp"\n'
+                   'int main() { dashpot::generated::kelvin law; return law.step(0, 0).force != 0; }\n')
+        for flags, status in [([], 0), (["-ffast-math"], 1), (["-ffinite-math-only"], 1), (["-Ofast"], 1),
+                              (["-fno-math-errno"], 0)]:
             with self.subTest(flags=flags):
-                done = subprocess.run([os.environ.get("CXX", "c++"), "-std=c++17", "-fsyntax-only", f"-I{SOURCE}/runtime/include", *flags, "main.cpp"],
+                done = subprocess.run([os.environ.get("CXX", "c++"), "-std=c++17", "-fsyntax-only",
+                                       f"-I{SOURCE}/runtime/include", *flags, "main.cpp"],
                                       cwd=self.folder, capture_output=True, text=True)
                 self.assertEqual(done.returncode != 0, bool(status), done.stderr)
                 self.assertEqual("dashpot needs IEEE arithmetic" in done.stderr, bool(status))
@@ -52,12 +57,15 @@ class Files(CommandTest):
         self.assertIn('#include "kelvin.hpp"', (self.folder / "out/kelvin_test.cpp").read_text())
 
     def test_a_test_without_motion(self):
-        """Fails if a test that plays no motion does not say so and why, where it is made and in itself; or one that plays one does."""
+        """Fails if a test that plays no motion does not say so and why, where it is made and in itself; or one that
+        plays one does."""
         slipping = SOURCE / "networks/paper/visco_elasto_plastic.json"
         for target, ending in (("cpp", "cpp"), ("c99", "c")):
-            done = self.dashpot("compile", slipping, "--name", "slipping", "--target", target, "--with-test", "-o", "out")
+            done = self.dashpot("compile", slipping, "--name", "slipping", "--target", target, "--with-test", "-o",
+                                "out")
             self.assertIn("note: the test of 'slipping' plays no motion to it, since with slips", done.stderr)
-            head = " ".join((self.folder / f"out/slipping_test.{ending}").read_text().replace("// ", "").split("#include")[0].split())
+            head = " ".join((self.folder / f"out/slipping_test.{ending}").read_text().replace("// ", "").split(
+                "#include")[0].split())
             self.assertIn("at rest, and by numbers that are none. No motion is played to it, since with slips", head)
             done = self.dashpot("compile", "kelvin.json", "--target", target, "--with-test", "-o", "out")
             self.assertNotIn("plays no motion", done.stderr)
@@ -73,8 +81,10 @@ class Files(CommandTest):
         """Fails if --vector does not reach the code of a loop, or an unknown machine passes."""
         branches = ", ".join(f'{{ "series": [ {{ "spring": {i} }}, {{ "damper": 1 }} ] }}' for i in range(1, 13))
         self.write("many.json", network(f'{{ "parallel": [ {branches} ] }}', "many"))
-        for registers, layout in [("none", "sums in 4 parts"), ("sse2", "16 bytes; sums in 8"), ("neon", "16 bytes; sums in 8"),
-                                  ("avx2", "32 bytes, -mavx2; sums in 16"), ("avx512", "64 bytes, -mavx512f; sums in 32")]:
+        for registers, layout in [("none", "sums in 4 parts"), ("sse2", "16 bytes; sums in 8"),
+                                  ("neon", "16 bytes; sums in 8"),
+                                  ("avx2", "32 bytes, -mavx2; sums in 16"),
+                                  ("avx512", "64 bytes, -mavx512f; sums in 32")]:
             self.dashpot("compile", "many.json", "--vector", registers)
             self.assertIn(layout, (self.folder / "many.hpp").read_text())
         self.dashpot("compile", "many.json", "--vector", "mmx", status=COMMAND_LINE_WRONG)
@@ -111,7 +121,8 @@ class Files(CommandTest):
         self.assertEqual(self.files("out"), ["kelvin.h"])
         header = (self.folder / "out/kelvin.h").read_text()
         for declared in ["typedef struct kelvin {", "static inline void kelvin_reset(kelvin *self, double position) {",
-                         "static inline dashpot_command kelvin_output(kelvin *self, double position, double velocity) {",
+                         "static inline dashpot_command kelvin_output(kelvin *self, double position, "
+                         "double velocity) {",
                          "static inline void kelvin_update(kelvin *self) {",
                          "static inline dashpot_command kelvin_step(kelvin *self, double position, double velocity) {",
                          "static inline double kelvin_stored_energy(const kelvin *self) {"]:
@@ -139,11 +150,13 @@ class Files(CommandTest):
             self.assertIn("note: --target cpp has it", done.stderr)
 
     def test_hal(self):
-        """Fails if --target hal writes anything but one component, or one that takes the place of another or has no room for its pins."""
+        """Fails if --target hal writes anything but one component, or one that takes the place of another or has no
+        room for its pins."""
         self.dashpot("compile", "kelvin.json", "--target", "hal", "-o", "out")
         self.assertEqual(self.files("out"), ["kelvin.comp"])
         component = (self.folder / "out/kelvin.comp").read_text()
-        for declared in ['component kelvin "kelvin";', "pin in float position", "pin out float damping", "pin out float force",
+        for declared in ['component kelvin "kelvin";', "pin in float position", "pin out float damping",
+                         "pin out float force",
                          "pin in bit enable = 0", "pin out bit fault", "typedef struct law_kelvin {"]:
             self.assertIn(declared, component)
         self.dashpot("compile", "kelvin.json", "--target", "hal", "--name", "restrict")
@@ -152,12 +165,14 @@ class Files(CommandTest):
         longest = "k" * (47 - len(".0.safe-damping"))
         self.dashpot("compile", "kelvin.json", "--target", "hal", "--name", longest)
         self.assertIn("HAL takes at most 47",
-                      self.refused("compile", "kelvin.json", "--target", "hal", "--name", longest + "k", code="name-too-long-for").stderr)
+                      self.refused("compile", "kelvin.json", "--target", "hal", "--name", longest + "k",
+                                   code="name-too-long-for").stderr)
 
     def test_parameters_with_names_of_a_target(self):
         """Fails if a tunable parameter passes for a pin or a variable that is there already."""
         for name in ["fault", "fperiod", "enable"]:
-            tunable = f'"parameters": {{ "{name}": {{ "value": "100 N/m", "tunable": true, "min": "50 N/m", "max": "200 N/m" }} }},'
+            tunable = (f'"parameters": {{ "{name}": {{ "value": "100 N/m", "tunable": true, '
+                       '"min": "50 N/m", "max": "200 N/m" } },')
             self.write("tunable.json", network(f'{{ "spring": "{name}" }}', "soft", tunable))
             self.refused("compile", "tunable.json", "--target", "hal", code="parameter-name-kept-by")
         self.write("tunable.json", network('{ "spring": "time" }', "soft", tunable.replace("enable", "time")))
@@ -236,7 +251,8 @@ class Files(CommandTest):
         """Fails if a folder in the place of the second file leaves the first one half done."""
         (self.folder / "out/maxwell.hpp").mkdir(parents=True)
         self.refused("compile", "kelvin.json", "maxwell.json", "-o", "out", code="cannot-write-file")
-        for options in [["-o", "law.hpp"], ["-o", "law.h", "--target", "c99"]]:  # else a folder of that name would be there
+        # else a folder of that name would be there
+        for options in [["-o", "law.hpp"], ["-o", "law.h", "--target", "c99"]]:
             self.refused("compile", "kelvin.json", *options, code="output-like-a-file")
             self.assertFalse((self.folder / options[1]).exists())
         (self.folder / "made.hpp").mkdir()
@@ -269,8 +285,10 @@ class Files(CommandTest):
         """Fails if a full disk, a file in the place of a folder or a folder in the place of a file are reported
         alike."""
         (self.folder / "folder").mkdir()
-        for target, reason in [("/dev/full", "No space left on device"), ("kelvin.json/c", "Not a directory"), ("folder", "Is a directory")]:
-            told = self.refused("compile", "kelvin.json", "-o", "out", "--certificate", target, code="cannot-write-file").stderr
+        for target, reason in [("/dev/full", "No space left on device"), ("kelvin.json/c", "Not a directory"),
+                               ("folder", "Is a directory")]:
+            told = self.refused("compile", "kelvin.json", "-o", "out", "--certificate", target,
+                                code="cannot-write-file").stderr
             self.assertIn(f"cannot write '{target}': {reason} [cannot-write-file]", told)
 
     def test_a_certificate_that_cannot_be_written(self):
@@ -280,7 +298,8 @@ class Files(CommandTest):
             self.assertEqual(self.files("out"), [])
         self.dashpot("compile", "kelvin.json", "-o", "out", "--certificate", "c.json")
         before = (self.folder / "out/kelvin.hpp").read_bytes()
-        self.refused("compile", "kelvin.json", "-o", "out", "--rate", "4000", "--certificate", "/dev/full", code="cannot-write-file")
+        self.refused("compile", "kelvin.json", "-o", "out", "--rate", "4000", "--certificate", "/dev/full",
+                     code="cannot-write-file")
         self.assertEqual((self.folder / "out/kelvin.hpp").read_bytes(), before)
         self.assertEqual(self.files("out"), ["kelvin.hpp"])
 
@@ -288,7 +307,8 @@ class Files(CommandTest):
         """Fails if a file that nobody asked for stays behind where writing is interrupted."""
         os.mkfifo(self.folder / "pipe")
         for signal_number in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
-            waiting = subprocess.Popen([DASHPOT, "compile", "kelvin.json", "-o", "out", "--certificate", "pipe"], cwd=self.folder)
+            waiting = subprocess.Popen([DASHPOT, "compile", "kelvin.json", "-o", "out", "--certificate", "pipe"],
+                                       cwd=self.folder)
             self.addCleanup(waiting.kill)
             while not self.files("out"):  # then the certificate waits for somebody who reads the pipe
                 self.assertIsNone(waiting.poll())
@@ -360,7 +380,8 @@ class Print(CommandTest):
 def rule_of(depfile):
     """Targets and prerequisites of a makefile with one rule, with make's escapes resolved."""
     targets, prerequisites = depfile.read_text().replace("\\\n", " ").split(": ", 1)
-    words = [text.replace("\\ ", "\0").replace("\\#", "#").replace("$$", "$").split() for text in (targets, prerequisites)]
+    words = [text.replace("\\ ", "\0").replace("\\#", "#").replace("$$", "$").split()
+             for text in (targets, prerequisites)]
     return [[word.replace("\0", " ") for word in side] for side in words]
 
 
@@ -378,11 +399,14 @@ class Depfile(CommandTest):
                                          str(SOURCE / "templates/network_test.cpp.in")])
 
     def test_names_the_templates_of_two_axes(self):
-        """Fails if a change of the template of a law of two axes does not lead to a new header, or that of another always does."""
+        """Fails if a change of the template of a law of two axes does not lead to a new header, or that of another
+        always does."""
         field = SOURCE / "networks/axes/kelvin_field.json"
         for target, shapes in [("cpp", ["axes.hpp.in", "axes_test.cpp.in"]), ("c99", ["axes.h.in"])]:
-            self.dashpot("compile", field, "--templates", SOURCE / "templates", "--target", target, "-o", "out", "--depfile", "d")
-            self.assertEqual(rule_of(self.folder / "d")[1], [str(field), *(str(SOURCE / "templates" / shape) for shape in shapes)])
+            self.dashpot("compile", field, "--templates", SOURCE / "templates", "--target", target, "-o", "out",
+                         "--depfile", "d")
+            self.assertEqual(rule_of(self.folder / "d")[1],
+                             [str(field), *(str(SOURCE / "templates" / shape) for shape in shapes)])
 
     def test_make_understands_it(self):
         """Fails if make does not rebuild when a network with a difficult name changes, or rebuilds when nothing did."""

@@ -82,7 +82,8 @@ class CommandTest(unittest.TestCase):
 
     def run_in_c(self, name):
         program = self.folder / "law_test"
-        subprocess.run(["cc", "-std=c99", "-ffp-contract=off", "-o", program, self.folder / f"{name}_test.c", "-lm"], check=True)
+        subprocess.run(["cc", "-std=c99", "-ffp-contract=off", "-o", program, self.folder / f"{name}_test.c", "-lm"],
+                       check=True)
         return subprocess.run([program], capture_output=True, text=True).stdout
 
 

@@ -32,26 +32,29 @@ class Exchange(CommandTest):
             self.dashpot("import", f"liver.{name}", "--from", name, *scale, "-o", f"{name}.json")
             self.expect_close(form(self, f"{name}.json"), given, 1e-12, name)
             self.dashpot("import", f"liver.{name}", "--from", name, "-o", f"{name}_alone.json")
-            self.expect_close(form(self, f"{name}_alone.json"), given, 1e-12, f"{name}, by what the file says of itself")
+            self.expect_close(form(self, f"{name}_alone.json"), given, 1e-12,
+                              f"{name}, by what the file says of itself")
             self.dashpot("compile", f"{name}.json", "-o", "emitted")
 
     def test_a_table_says_itself_what_it_is(self):
-        """Fails if what is exported as a table can be imported only by who remembers what its weights are shares of, or if what the
-        table says is taken against the command line."""
+        """Fails if what is exported as a table can be imported only by who remembers what its weights are shares of, or
+        if what the table says is taken against the command line."""
         given = form(self, self.write("liver.json", SERIES))
         self.dashpot("export", "liver.json", "--to", "generic", "-o", "liver.csv")
         self.dashpot("import", "liver.csv", "--from", "generic", "-o", "again.json")
         self.expect_close(form(self, "again.json"), given, 1e-12, "as the table says")
         self.dashpot("import", "liver.csv", "--from", "generic", "--stiffness", "2.4 kN/m", "-o", "twice.json")
         self.expect_close(form(self, "twice.json")[0:1], [2 * given[0]], 1e-12, "with another stiffness")
-        self.refused("import", "liver.csv", "--from", "generic", "--of", "long-term", code="prony-scale-missing", status=COMMAND_LINE_WRONG)
+        self.refused("import", "liver.csv", "--from", "generic", "--of", "long-term", code="prony-scale-missing",
+                     status=COMMAND_LINE_WRONG)
         self.write("odd.csv", "# of: instantaneous\n# stiffness: 3 s\nweight,time\n0.4,0.1\n")
         self.refused("import", "odd.csv", "--from", "generic", code="wrong-unit", status=COMMAND_LINE_WRONG)
 
     def test_units_of_the_file(self):
         """Fails if times in milliseconds are taken for seconds, or a modulus for a stiffness."""
         self.write("deck.k", "*MAT_GENERAL_VISCOELASTIC\n7,1e-6,2.19\n,\n120.,0.\n40.,0.01\n")
-        self.dashpot("import", "deck.k", "--from", "ls-dyna", "--modulus", "24 mN/m", "--time-unit", "ms", "--name", "fat",
+        self.dashpot("import", "deck.k", "--from", "ls-dyna", "--modulus", "24 mN/m", "--time-unit", "ms", "--name",
+                     "fat",
                      "-o", "fat.json")
         self.expect_close(form(self, "fat.json"), [120 * 0.024, 0, 40 * 0.024, 10], 1e-12, "fat")
 
@@ -62,7 +65,8 @@ class Exchange(CommandTest):
                              status=COMMAND_LINE_WRONG)
         self.assertIn('--stiffness "1.2 kN/m"', asked.stderr)
         self.write("table.csv", "weight,time\n0.4,0.1\n")
-        self.refused("import", "table.csv", "--from", "generic", "--stiffness", "1 N/m", code="prony-convention-missing")
+        self.refused("import", "table.csv", "--from", "generic", "--stiffness", "1 N/m",
+                     code="prony-convention-missing")
         self.refused("import", "deck.inp", "--from", "abaqus", "--stiffness", "5 N", code="wrong-unit",
                      status=COMMAND_LINE_WRONG)
         self.dashpot("import", "deck.inp", "--from", "nastran", status=COMMAND_LINE_WRONG)

@@ -24,7 +24,8 @@ class Changes(CommandTest):
         return json.loads(self.dashpot("explain", *arguments, "--json", "--no-advice").stdout)
 
     def test_set(self):
-        """Fails if --set does not change the element or the parameter that it names, in its unit, the last of two for one."""
+        """Fails if --set does not change the element or the parameter that it names, in its unit, the last of two for
+        one."""
         self.write("tuned.json", self.TUNED)
         for words, stiffness in {"K=200": 207, "K2=0.2 kN/m": 300, "K1=3": 10}.items():
             self.assertEqual(self.explained("tuned.json", "--set", words)["static_stiffness"], stiffness)
@@ -32,13 +33,16 @@ class Changes(CommandTest):
         self.assertEqual((found["static_stiffness"], found["feedthrough_damping"]), (37, 8))
 
     def test_set_leaves_no_parameter_unused(self):
-        """Fails if --set, which takes the place of what used a parameter, is answered by a warning about that parameter's place."""
-        self.write("pad.json", network('{ "spring": "2 * E", "name": "fat" }', "pad", '"parameters": { "E": "30 N/m", "F": "2 N/m" },'))
+        """Fails if --set, which takes the place of what used a parameter, is answered by a warning about that
+        parameter's place."""
+        self.write("pad.json", network('{ "spring": "2 * E", "name": "fat" }', "pad",
+                                       '"parameters": { "E": "30 N/m", "F": "2 N/m" },'))
         self.assertIn("'F' is not used", self.dashpot("explain", "pad.json", "--name", "other").stderr)
         self.assertNotIn("[unused-parameter]", self.dashpot("explain", "pad.json", "--set", "fat=200 N/m").stderr)
 
     def test_set_that_does_not_fit(self):
-        """Fails if a name that nothing has, or a value that the file could not hold, is taken, or is refused without what would do."""
+        """Fails if a name that nothing has, or a value that the file could not hold, is taken, or is refused without
+        what would do."""
         self.write("tuned.json", self.TUNED)
         told = self.refused("explain", "tuned.json", "--set", "K3=1", code="set-unknown-name").stderr
         self.assertIn("'K' is the nearest name", told)
@@ -52,7 +56,8 @@ class Changes(CommandTest):
         self.assertNotIn(" | ", told)  # no line of the file says so
         told = self.refused("explain", "tuned.json", "--name", "a b", code="name-form").stderr
         self.assertIn('tuned.json: --name "a b": error:', told)
-        told = json.loads(self.dashpot("explain", "tuned.json", "--name", "a b", "--diagnostics", "json", status=1).stderr)
+        told = json.loads(self.dashpot("explain", "tuned.json", "--name", "a b", "--diagnostics", "json",
+                                       status=1).stderr)
         self.assertEqual((told[0]["file"], told[0]["line"]), ("tuned.json", None))
         self.assertTrue(told[0]["message"].startswith('--name "a b": network name'), told)
         self.refused("explain", "tuned.json", "--set", "B=2 N/m", code="parameter-of-wrong-unit")
@@ -66,7 +71,8 @@ class Changes(CommandTest):
         self.assertIn("'/dev/stdin'", self.refused("explain", "-", code="cannot-read-file").stderr)
 
     def test_name(self):
-        """Fails if --name is not that of the file and the class, if what is emitted so is not certified under it, or if two networks get one."""
+        """Fails if --name is not that of the file and the class, if what is emitted so is not certified under it, or if
+        two networks get one."""
         self.write("kelvin.json", KELVIN)
         self.dashpot("compile", "kelvin.json", "--name", "soft", "-o", "out", "--certificate", "out/soft.json")
         self.assertIn("class soft", (self.folder / "out/soft.hpp").read_text())
@@ -83,12 +89,14 @@ class BehindAContact(CommandTest):
     def test_why_the_brake_does_nothing(self):
         """Fails if b = 0 behind a contact goes unexplained, or is explained where the brake has something to do."""
         said = self.explained('{ "series": [ { "spring": 50 }, { "damper": 5 } ] }')
-        self.assertIn("why b is 0 behind a contact the brake may take no more than the feedthrough damping, and that is 0 here", said)
+        self.assertIn("why b is 0 behind a contact the brake may take no more than the feedthrough damping, and that "
+                      "is 0 here", said)
         self.assertIn("without 'contact' it could take up to 5 N s/m", said)
         said = self.explained('{ "parallel": [ { "spring": 50 }, { "damper": 5 } ] }')
         self.assertNotIn("why b is 0", said)
         said = re.sub(r"\s+", " ", self.dashpot("explain", "behind.json", "--decomposition", "virtual").stdout)
-        self.assertIn("why b is 0 'virtual' leaves everything to the motor; another --decomposition gives the brake up to 5 N s/m", said)
+        self.assertIn("why b is 0 'virtual' leaves everything to the motor; another --decomposition gives the brake up "
+                      "to 5 N s/m", said)
 
 
 class Json(CommandTest):
@@ -151,7 +159,9 @@ class Json(CommandTest):
         self.assertTrue(faithful["certified"])
         self.assertLess(choice["over_assumed"]["least_damping"], faithful["damping"])
         self.assertGreater(choice["over_assumed"]["most_damping"], faithful["damping"])
-        for words in ["With the paper's rule", "The brake does little, because of the network's damping only 0 N s/m act at once", "off by up to 20 %"]:
+        for words in ["With the paper's rule",
+                      "The brake does little, because of the network's damping only 0 N s/m act at once",
+                      "off by up to 20 %"]:
             self.assertIn(words, choice["in_words"])
         text = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH).stdout
         self.assertIn(choice["in_words"], " ".join(text.split()))
@@ -161,7 +171,8 @@ class Json(CommandTest):
         networks = sorted((SOURCE / "networks").glob("*/*.json"))
         on_device = networks
         if os.environ.get("DASHPOT_LONG") != "1":  # else one of each shape, and some more
-            shapes = ["paper/virtual_wall", "paper/visco_elasto_plastic", "tunable/standard_solid_tunable", "static/sphere_on_gel",
+            shapes = ["paper/virtual_wall", "paper/visco_elasto_plastic", "tunable/standard_solid_tunable",
+                      "static/sphere_on_gel",
                       "tissues/needle_in_liver"]
             others = [path for path in networks if not re.search("organ|slip_ten|layers", path.stem)]  # the slowest
             on_device = [SOURCE / f"networks/{shape}.json" for shape in shapes]
@@ -178,18 +189,21 @@ class Json(CommandTest):
         text = self.dashpot("explain", FIG_5).stdout
         rows = re.findall(r"(?m)^([a-z-]+) +[0-9.e+-]+  (?:position|velocity|nodal) ", text)
         self.assertEqual(rows, ["paper", "quietest-passive", "velocity-free"])
-        self.assertRegex(text, r"the same +zero-frequency as paper, largest-observer as paper, virtual as velocity-free\n")
+        self.assertRegex(text,
+                         r"the same +zero-frequency as paper, largest-observer as paper, virtual as velocity-free\n")
         for name in NAMES:
             self.assertRegex(text, rf"(?m)^  {name} ")
 
     def test_the_legend_explains_every_column(self):
         """Fails if a column of the table has no line in --legend."""
         text = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH, "--legend").stdout
-        for column in ["b", "states driven by", "velocity gain", "any-delay extra", "minimum damping", "noise", "error"]:
+        for column in ["b", "states driven by", "velocity gain", "any-delay extra", "minimum damping", "noise",
+                       "error"]:
             self.assertRegex(text, rf"(?m)^{column}  +[a-z]")
 
     def test_the_tolerance_is_kept(self):
-        """Fails if --tolerance does not reach the choice: with more of it the brake may do more, up to what passivity then lacks."""
+        """Fails if --tolerance does not reach the choice: with more of it the brake may do more, up to what passivity
+        then lacks."""
         dampings = []
         for tolerance in ["10%", "15 %", "0.2"]:
             found = self.explained(FIG_5, "--device", PANTOGRAPH, "--tolerance", tolerance)
@@ -200,7 +214,8 @@ class Json(CommandTest):
         (faithful,) = (c for c in found["candidates"] if c["name"] == "faithful")
         self.assertLess(faithful["largest_error"], 0.4)
         self.assertEqual(faithful["minimum_damping"], 0)
-        self.assertAlmostEqual(found["certificate"]["needed_damping"], found["certificate"]["assured_damping"], delta=0.005 * found["certificate"]["needed_damping"])
+        self.assertAlmostEqual(found["certificate"]["needed_damping"], found["certificate"]["assured_damping"],
+                               delta=0.005 * found["certificate"]["needed_damping"])
         self.assertEqual([*dampings, faithful["damping"]], sorted({*dampings, faithful["damping"]}))
 
     def test_the_old_name_of_the_papers_rule(self):
@@ -211,7 +226,8 @@ class Json(CommandTest):
     def test_an_error_comes_with_a_remedy_that_holds(self):
         """Fails if a choice that is the tissue no more is not reported, or if what is suggested instead does not do
         it."""
-        done = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH, "--decomposition", "paper", "--state-input", "velocity")
+        done = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH, "--decomposition", "paper", "--state-input",
+                            "velocity")
         self.assertIn("[felt-error]", done.stderr)
         options, error = re.search(r"'(--.*)' has been tried: it errs by up to ([0-9.]+) %", done.stderr).groups()
         found = self.explained(FIG_5, "--device", PANTOGRAPH, "--state-input", "velocity", *options.split())
@@ -236,13 +252,16 @@ class Json(CommandTest):
     def skin_on_paddle(self, **motor):
         """A network all behind one slip, and a paddle whose brake gives a thirtieth of its damping."""
         self.write("skin.json", network(
-            '{ "series": [ { "parallel": [ { "spring": 400 }, { "damper": 1.2 } ] }, { "parallel": [ { "slip": 0.4, "name": "fascia" }, '
-            '{ "spring": 60 } ] }, { "parallel": [ { "spring": 150 }, { "series": [ { "spring": 200 }, { "damper": 20 } ] } ] } ] }', "skin"))
+            '{ "series": [ { "parallel": [ { "spring": 400 }, { "damper": 1.2 } ] }, { "parallel": [ { "slip": 0.4, '
+            '"name": "fascia" }, '
+            '{ "spring": 60 } ] }, { "parallel": [ { "spring": 150 }, { "series": [ { "spring": 200 }, { "damper": 20 '
+            '} ] } ] } ] }', "skin"))
         self.write("paddle.json", json.dumps({
             "dashpot_device": 1, "name": "paddle", "motion": "rotation", "arm_radius": "80 mm",
             "loop": {"rate": "2 kHz", "jitter": "50 us", "delay_samples": 1},
             "encoder": {"counts_per_turn": 12000, "range": ["-0.7 rad", "0.7 rad"], "max_speed": "30 rad/s"},
-            "velocity": {"estimator": "backward_difference", "window": 10}, "motor": {"max_torque": "0.144 N m"} | motor,
+            "velocity": {"estimator": "backward_difference", "window": 10}, "motor": {"max_torque": "0.144 N m"} |
+            motor,
             "brake": {"kind": "eddy_current", "max_damping": "4 mN m s/rad"}}))
         return 0.004 / 0.08**2
 
@@ -302,24 +321,29 @@ class Json(CommandTest):
         self.assertEqual(self.felt_where_slips_give_way(network_file, "--device", "exact.json")[0], told)
 
     def test_what_is_compared_has_the_numbers_of_its_row(self):
-        """Fails if the words compare a choice behind slips with a candidate that was weighed before the law behind them was chosen."""
+        """Fails if the words compare a choice behind slips with a candidate that was weighed before the law behind them
+        was chosen."""
         self.write("needle.json", network("""{ "parallel": [ { "damper": 1 }, { "series": [ { "slip": 0.4, "name": "skin" }, { "spring": 400 } ] },
           { "series": [ { "slip": 0.8, "name": "capsule" }, { "parallel": [ { "spring": 300 }, { "damper": 0.5 } ] } ] } ] }""", "needle"))
         self.write("handle.json", json.dumps({
             "dashpot_device": 1, "name": "handle", "motion": "rotation", "arm_radius": "60 mm",
-            "loop": {"rate": "2 kHz", "delay_samples": 1, "band": ["0.1 Hz", "30 Hz"]}, "encoder": {"counts_per_turn": 20000},
+            "loop": {"rate": "2 kHz", "delay_samples": 1, "band": ["0.1 Hz", "30 Hz"]},
+            "encoder": {"counts_per_turn": 20000},
             "velocity": {"estimator": "backward_difference", "window": 8},
             "motor": {"torque_constant": "0.24 N m/A", "max_torque": "0.6 N m", "amplifier_lag": "0.3 ms"},
-            "brake": {"kind": "eddy_current", "max_damping": "10 mN m s/rad", "damping_per_current_squared": "1.5 mN m s/(rad A^2)", "tolerance": "10 %",
+            "brake": {"kind": "eddy_current", "max_damping": "10 mN m s/rad",
+                      "damping_per_current_squared": "1.5 mN m s/(rad A^2)", "tolerance": "10 %",
                       "coil_lag": "4 ms"},
             "mechanics": {"inertia": "0.3 g m^2", "damping": "200 uN m s/rad", "coulomb_friction": "5 mN m"}}))
         found = self.explained("needle.json", "--device", "handle.json")
         (paper,) = (c for c in found["candidates"] if c["name"] == "paper")
-        told = re.search(r"the paper's rule, b = 1 N s/m, it errs by (\S+) %, (\S+) N s/m have to be added", found["choice"]["in_words"]).groups()
+        told = re.search(r"the paper's rule, b = 1 N s/m, it errs by (\S+) %, (\S+) N s/m have to be added",
+                         found["choice"]["in_words"]).groups()
         self.assertEqual(told, (f"{100 * paper['largest_error']:.3g}", f"{paper['minimum_damping']:.3g}"))
         asked = self.explained("needle.json", "--device", "handle.json", "--decomposition", "paper")
         (paper,) = (c for c in asked["candidates"] if c["name"] == "paper")
-        self.assertIn(f"position {paper['minimum_damping']:.4g} N s/m, {100 * paper['largest_error']:.4g} %", asked["reason"])
+        self.assertIn(f"position {paper['minimum_damping']:.4g} N s/m, {100 * paper['largest_error']:.4g} %",
+                      asked["reason"])
 
     def test_behind_slips_no_more_is_added_than_is_missing(self):
         """Fails if more is added to the brake than the minimum damping that is reported; what is added is felt."""
@@ -343,20 +367,23 @@ class Json(CommandTest):
         done = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH)
         self.assertNotIn(proved, " ".join(done.stdout.split()))
         options = re.search(r"'(--.*)' has been tried and is proved there too", done.stderr).group(1)
-        self.assertIn(proved, " ".join(self.dashpot("explain", FIG_5, "--device", PANTOGRAPH, *options.split()).stdout.split()))
+        self.assertIn(proved,
+                      " ".join(self.dashpot("explain", FIG_5, "--device", PANTOGRAPH, *options.split()).stdout.split()))
         device = json.loads(PANTOGRAPH.read_text())
         device["mechanics"]["damping"] = re.search(r'"damping": "(.*)" in "mechanics"', done.stderr).group(1)
         self.write("damped.json", json.dumps(device))
         self.assertIn(proved, " ".join(self.dashpot("explain", FIG_5, "--device", "damped.json").stdout.split()))
         found = self.explained(FIG_5, "--device", "damped.json")
         (chosen,) = (c for c in found["candidates"] if c["name"] == found["chosen"])
-        told = re.search(r'in "mechanics" of the device file; what is felt would err by up to (\S+) %', done.stderr).group(1)
+        told = re.search(r'in "mechanics" of the device file; what is felt would err by up to (\S+) %',
+                         done.stderr).group(1)
         self.assertEqual(f"{100 * chosen['largest_error']:.3g}", told)
 
     def test_a_contact_shows_what_its_certificate_says(self):
         """Fails if the row of the choice, or its words, say of a certified contact that nothing is proved of it."""
         self.write("liver.json", network(
-            '{ "parallel": [ { "spring": "46.4 N/m" }, { "series": [ { "damper": "0.292 N s/m" }, { "spring": "78.8 N/m" } ] } ] }',
+            '{ "parallel": [ { "spring": "46.4 N/m" }, { "series": [ { "damper": "0.292 N s/m" }, { "spring": "78.8 '
+            'N/m" } ] } ] }',
             "liver", '"contact": { "at": 0 },'))
         self.write("stage.json", json.dumps(self.STAGE))
         found = self.explained("liver.json", "--device", "stage.json")
@@ -367,7 +394,8 @@ class Json(CommandTest):
         self.assertNotIn("is certified", found["choice"]["in_words"])
 
     def test_rows_of_fixed_values_are_told(self):
-        """Fails if rows of a network with tunable parameters pass for what the law with set() needs, or are compared with it."""
+        """Fails if rows of a network with tunable parameters pass for what the law with set() needs, or are compared
+        with it."""
         file = SOURCE / "networks/tunable/second_order_maxwell_tunable.json"
         told = self.dashpot("explain", file, "--device", PANTOGRAPH).stdout
         self.assertIn("\nrows with *           ", told)
@@ -377,12 +405,16 @@ class Json(CommandTest):
         self.assertNotIn("\nrows with", self.dashpot("explain", FIG_5, "--device", PANTOGRAPH).stdout)
 
     LATE = {"dashpot_device": 1, "name": "late", "motion": "translation",
-            "loop": {"rate": "2 kHz", "delay_samples": 1, "band": ["0.1 Hz", "20 Hz"]}, "encoder": {"resolution": "12 um"},
+            "loop": {"rate": "2 kHz", "delay_samples": 1, "band": ["0.1 Hz", "20 Hz"]},
+            "encoder": {"resolution": "12 um"},
             "velocity": {"estimator": "backward_difference", "window": 8}, "motor": {"amplifier_lag": "0.3 ms"},
-            "brake": {"kind": "eddy_current", "max_damping": "2.8 N s/m", "tolerance": "8 %"}, "mechanics": {"damping": "0.06 N s/m"}}
-    TUNED = network("""{ "parallel": [ { "spring": "k0" }, { "damper": 1.5 }, { "series": [ { "spring": 320 }, { "damper": 20 } ] } ] }""",
-                    "tuned", '"parameters": { "k0": { "value": "100 N/m", "tunable": true, "min": "50 N/m", "max": "300 N/m" } },')
-    PAD = network("""{ "parallel": [ { "spring": 100 }, { "damper": 0.6 }, { "series": [ { "spring": 160 }, { "damper": 20 } ] } ] }""", "pad")
+            "brake": {"kind": "eddy_current", "max_damping": "2.8 N s/m", "tolerance": "8 %"},
+            "mechanics": {"damping": "0.06 N s/m"}}
+    TUNED = network(
+        """{ "parallel": [ { "spring": "k0" }, { "damper": 1.5 }, { "series": [ { "spring": 320 }, { "damper": 20 } ] } ] }""",
+        "tuned", '"parameters": { "k0": { "value": "100 N/m", "tunable": true, "min": "50 N/m", "max": "300 N/m" } },')
+    PAD = network(
+        """{ "parallel": [ { "spring": 100 }, { "damper": 0.6 }, { "series": [ { "spring": 160 }, { "damper": 20 } ] } ] }""", "pad")
 
     def chosen_row(self, *arguments):
         found = self.explained(*arguments)
@@ -390,19 +422,21 @@ class Json(CommandTest):
         return chosen, found
 
     def test_the_chosen_row_is_of_its_certificate(self):
-        """Fails if the row of the choice of a network with tunable parameters says another damping than its certificate, on a device
-        or on an ideal one."""
+        """Fails if the row of the choice of a network with tunable parameters says another damping than its
+        certificate, on a device or on an ideal one."""
         self.write("late.json", json.dumps(self.LATE))
         self.write("tuned.json", self.TUNED)
         friction = SOURCE / "networks/tunable/friction_tunable.json"
-        for arguments in [("tuned.json", "--device", "late.json"), ("tuned.json", "--device", "late.json", "--decomposition", "1.3"),
+        for arguments in [("tuned.json", "--device", "late.json"),
+                          ("tuned.json", "--device", "late.json", "--decomposition", "1.3"),
                           (friction,), (friction, "--device", "late.json")]:
             chosen, found = self.chosen_row(*arguments)
             self.assertGreater(found["certificate"]["minimum_damping"], 0, arguments)
             self.assertEqual(chosen["minimum_damping"], found["certificate"]["minimum_damping"], arguments)
 
     def test_a_choice_over_ranges_is_the_best_of_several(self):
-        """Fails if for tunable parameters another damping is certified and errs noticeably less than the one that is chosen."""
+        """Fails if for tunable parameters another damping is certified and errs noticeably less than the one that is
+        chosen."""
         self.write("late.json", json.dumps(self.LATE))
         self.write("tuned.json", self.TUNED)
         chosen, found = self.chosen_row("tuned.json", "--device", "late.json")
@@ -462,7 +496,8 @@ class Json(CommandTest):
         self.write("pad.json", self.PAD)
         chosen, found = self.chosen_row("pad.json", "--device", "late.json")
         text = self.dashpot("explain", "pad.json", "--device", "late.json").stdout
-        told, added = re.search(r"\nbrake is told +(\S+) N s/m, of which (\S+) are for passivity; it can make 2.8\n", text).groups()
+        told, added = re.search(r"\nbrake is told +(\S+) N s/m, of which (\S+) are for passivity; it can make 2.8\n",
+                                text).groups()
         self.assertGreater(float(added), 0)
         self.assertEqual(f"{found['certificate']['added_damping']:.4g}", added)
         self.assertAlmostEqual(chosen["damping"] + float(added), float(told), delta=1e-3 * float(told))
@@ -473,14 +508,16 @@ class Json(CommandTest):
         self.write("pad.json", self.PAD)
         arguments = ["pad.json", "--device", "late.json", "--decomposition", "0.25"]
         chosen, _ = self.chosen_row(*arguments)
-        options, error = re.search(r"'(--state-input \S+)' has been tried: it errs by up to (\S+) %", self.dashpot("explain", *arguments).stderr).groups()
+        options, error = re.search(r"'(--state-input \S+)' has been tried: it errs by up to (\S+) %",
+                                   self.dashpot("explain", *arguments).stderr).groups()
         other, _ = self.chosen_row(*arguments, *options.split())
         self.assertEqual(f"{100 * other['largest_error']:.3g}", error)
         self.assertLess(other["largest_error"], 0.9 * chosen["largest_error"])
 
     def test_an_error_is_told_of_what_is_not_certified_too(self):
         """Fails if what is felt errs without a warning where the law is not certified either."""
-        self.write("late.json", json.dumps({key: value for key, value in self.LATE.items() if key not in ("brake", "mechanics")}))
+        self.write("late.json",
+                   json.dumps({key: value for key, value in self.LATE.items() if key not in ("brake", "mechanics")}))
         self.write("pad.json", self.PAD)
         chosen, found = self.chosen_row("pad.json", "--device", "late.json")
         self.assertFalse(found["certificate"]["certified"])
@@ -500,20 +537,25 @@ class Json(CommandTest):
 
     def test_the_lag_alone_is_left_out_where_that_is_enough(self):
         """Fails if more own damping is asked for than a device needs that is as prompt as the note says."""
-        device = {"dashpot_device": 1, "name": "rig", "motion": "translation", "loop": {"rate": "2 kHz", "delay_samples": 1},
+        device = {"dashpot_device": 1, "name": "rig", "motion": "translation",
+                  "loop": {"rate": "2 kHz", "delay_samples": 1},
                   "encoder": {"resolution": "2 um", "range": ["-30 mm", "30 mm"], "max_speed": "0.5 m/s"},
                   "velocity": {"estimator": "backward_difference", "window": 8},
                   "motor": {"max_torque": "12 N", "amplifier_lag": "0.3 ms", "slew": "3 kN/s"},
-                  "brake": {"kind": "eddy_current", "max_damping": "8 N s/m", "tolerance": "8 %"}, "mechanics": {"damping": "0.05 N s/m"}}
+                  "brake": {"kind": "eddy_current", "max_damping": "8 N s/m", "tolerance": "8 %"},
+                  "mechanics": {"damping": "0.05 N s/m"}}
         self.write("rig.json", json.dumps(device))
-        told = self.dashpot("compile", SOURCE / "networks/paper/bridge.json", "--device", "rig.json", "-o", "out").stderr
+        told = self.dashpot("compile", SOURCE / "networks/paper/bridge.json", "--device", "rig.json", "-o",
+                            "out").stderr
         self.assertIn('the same device would do with no "amplifier_lag" in its file', told)
         del device["motor"]["amplifier_lag"]
         self.write("prompt.json", json.dumps(device))
-        self.assertTrue(self.explained(SOURCE / "networks/paper/bridge.json", "--device", "prompt.json")["certificate"]["certified"])
+        self.assertTrue(self.explained(SOURCE / "networks/paper/bridge.json", "--device",
+                                       "prompt.json")["certificate"]["certified"])
 
     def test_slips_leave_the_brake_room_for_passivity(self):
-        """Fails if a law behind slips takes all of the brake, so that the default is refused or certified only without it."""
+        """Fails if a law behind slips takes all of the brake, so that the default is refused or certified only without
+        it."""
         brake = self.skin_on_paddle()
         for choice in ([], ["--decomposition", "steady"], ["--decomposition", "ramped"]):
             found = self.explained("skin.json", "--device", "paddle.json", *choice)
@@ -524,11 +566,13 @@ class Json(CommandTest):
         self.assertNotIn("[felt-error-behind-slips]", self.dashpot("compile", "skin.json").stderr)
 
     def test_a_refused_choice_names_one_that_would_do(self):
-        """Fails if a decomposition that is asked for and refused goes without the one that is certified on the same device."""
+        """Fails if a decomposition that is asked for and refused goes without the one that is certified on the same
+        device."""
         self.skin_on_paddle(amplifier_lag="0.3 ms")
         asked = ["skin.json", "--device", "paddle.json", "--decomposition", "0.3"]
         done = self.refused("compile", *asked, code="not-certified")
-        options, damping = re.search(r"note: '(--.*)' would do: it is certified, with b = ([0-9.]+) N s/m", done.stderr).groups()
+        options, damping = re.search(r"note: '(--.*)' would do: it is certified, with b = ([0-9.]+) N s/m",
+                                     done.stderr).groups()
         found = self.explained("skin.json", "--device", "paddle.json", *options.split())
         (chosen,) = (c for c in found["candidates"] if c["name"] == found["chosen"])
         self.assertEqual(f"{chosen['damping']:.4g}", damping)
@@ -562,8 +606,8 @@ class Json(CommandTest):
         self.assertIn("[fast-relaxation]", done.stderr)
 
     def test_regimes_of_slips(self):
-        """Fails if a regime of Fig. 10 is missing, or gives the brake another damping than theory says: B1 alone is at the
-        tool, B2 = 0.8 joins it while the slip gives way, or at all times where nothing is to switch."""
+        """Fails if a regime of Fig. 10 is missing, or gives the brake another damping than theory says: B1 alone is at
+        the tool, B2 = 0.8 joins it while the slip gives way, or at all times where nothing is to switch."""
         fig_10 = SOURCE / "networks/paper/visco_elasto_plastic.json"
         steady = self.explained(fig_10)
         self.assertEqual([regime["damping"] for regime in steady["regimes"]], [0.8, 0.8])
@@ -589,7 +633,8 @@ class Json(CommandTest):
 
 
     def test_regimes_of_coupled_slips(self):
-        """Fails if slips that are coupled, in no tree, or behind a contact have no regimes, or the tool that is free none."""
+        """Fails if slips that are coupled, in no tree, or behind a contact have no regimes, or the tool that is free
+        none."""
         bridge = """{ "dashpot": 1, "name": "bridge", MORE "elements": [
           { "damper": 2, "nodes": ["tool", "a"] }, { "damper": 3, "nodes": ["tool", "b"] }, { "slip": 0.2, "nodes": ["a", "b"] },
           { "damper": 4, "nodes": ["a", "ground"] }, { "damper": 1, "nodes": ["b", "ground"] } ] }"""
@@ -615,11 +660,14 @@ class MotorLimits(CommandTest):
 
     def explained(self, network="wall.json", choice="velocity-free", **motor):
         self.write("wall.json", '{ "dashpot": 1, "name": "wall", "network": { "spring": "1 kN/m" } }')
-        self.write("slip.json", '{ "dashpot": 1, "name": "slip", "network": { "series": [{ "spring": "1 kN/m" }, { "slip": "9 N" }] } }')
+        self.write("slip.json",
+                   '{ "dashpot": 1, "name": "slip", '
+                   '"network": { "series": [{ "spring": "1 kN/m" }, { "slip": "9 N" }] } }')
         device = {"dashpot_device": 1, "name": "slewing", "motion": "translation", "loop": {"rate": "1 kHz"},
                   "encoder": {"resolution": "1 um", "range": ["-10 mm", "40 mm"], "max_speed": "0.5 m/s"},
                   "velocity": {"estimator": "backward_difference", "window": 4}, "motor": motor,
-                  "brake": {"kind": "eddy_current", "max_damping": "20 N s/m"}, "mechanics": {"damping": "0.5 N s/m", "inertia": "50 g"}}
+                  "brake": {"kind": "eddy_current", "max_damping": "20 N s/m"},
+                  "mechanics": {"damping": "0.5 N s/m", "inertia": "50 g"}}
         self.write("slewing.json", json.dumps(device))
         arguments = [network, "--device", "slewing.json", "--decomposition", choice]
         self.text = self.dashpot("explain", *arguments, "--no-advice").stdout
@@ -631,7 +679,8 @@ class MotorLimits(CommandTest):
         self.assertAlmostEqual(limits["largest_force"], 50, delta=1e-9)
         self.assertAlmostEqual(limits["slew_needed"], 500, delta=1e-8)
         self.assertEqual((limits["rule"], limits["covered"], limits["needed_damping"]), ("none", True, None))
-        self.assertIn("largest force: the law asks for up to 50 N within the encoder's range; the motor gives 51 N\n", self.text)
+        self.assertIn("largest force: the law asks for up to 50 N within the encoder's range; the motor gives 51 N\n",
+                      self.text)
         self.assertNotIn("at the motor's limit", self.text)
 
     def test_a_motor_that_clips(self):
@@ -653,7 +702,8 @@ class MotorLimits(CommandTest):
         self.assertIn("slew: 500 N/s follow any motion within range and speed, the motor has 2000 N/s\n", self.text)
 
     def test_a_discontinuity_is_covered_by_spare_damping(self):
-        """Fails if the largest force that may vanish is not that of the spare damping: F0 (1 + 3/2N + ...) = 6 rho x/K."""
+        """Fails if the largest force that may vanish is not that of the spare damping: F0 (1 + 3/2N + ...) = 6 rho
+        x/K."""
         found = self.explained(choice="virtual", slew="2 kN/s")
         self.assertEqual(found["motor_limits"]["largest_discontinuity"], 0)
         device = json.loads((self.folder / "slewing.json").read_text())
@@ -676,17 +726,21 @@ class MotorLimits(CommandTest):
         """Fails if the suggested slew is not enough, or if nothing is said where only a motor without one would do."""
         compiled = ["compile", "wall.json", "--device", "slewing.json", "--decomposition", "velocity-free", "-o", "out"]
         self.explained(slew="499 N/s")
-        slew = re.search(r'"slew": "(\S+ N/s)" in "motor" of the device file, in place of 499;', self.dashpot(*compiled).stderr).group(1)
+        slew = re.search(r'"slew": "(\S+ N/s)" in "motor" of the device file, in place of 499;',
+                         self.dashpot(*compiled).stderr).group(1)
         self.assertLess(float(slew.split()[0]), 510)
         self.assertTrue(self.explained(slew=slew)["certificate"]["certified"])
         self.explained(slew="2 kN/s", amplifier_lag="0.2 ms")
         self.assertIn('the same device would do with no "slew" in its file', self.dashpot(*compiled).stderr)
         self.assertTrue(self.explained(amplifier_lag="0.2 ms")["certificate"]["certified"])
         # A contact, whose force jumps; `explain` says who tells.
-        self.write("touch.json", json.dumps({"dashpot": 1, "name": "touch", "contact": {"at": "0 mm"}, "network": {"spring": "200 N/m"}}))
+        self.write("touch.json",
+                   json.dumps({"dashpot": 1, "name": "touch", "contact": {"at": "0 mm"},
+                               "network": {"spring": "200 N/m"}}))
         self.explained("touch.json", slew="2 kN/s")
         asked = ["touch.json", "--device", "slewing.json"]
-        self.assertIn('the same device would do with no "slew" in its file', self.dashpot("compile", *asked, "-o", "out").stderr)
+        self.assertIn('the same device would do with no "slew" in its file',
+                      self.dashpot("compile", *asked, "-o", "out").stderr)
         self.assertIn("'dashpot compile' and 'dashpot check' say what would do", self.dashpot("explain", *asked).stderr)
         self.assertTrue(self.explained("touch.json")["certificate"]["certified"])
         self.assertNotIn("would do", self.dashpot("explain", *asked).stderr)
@@ -696,14 +750,16 @@ class MotorLimits(CommandTest):
         so."""
         limits = self.explained("slip.json", max_torque="8 N")["motor_limits"]
         self.assertEqual((limits["rule"], limits["covered"]), ("sheds", True))
-        self.dashpot("compile", "slip.json", "--device", "slewing.json", "--decomposition", "velocity-free", "--certificate", "slip_certificate.json")
+        self.dashpot("compile", "slip.json", "--device", "slewing.json", "--decomposition", "velocity-free",
+                     "--certificate", "slip_certificate.json")
         header = (self.folder / "slip.hpp").read_text()
         self.assertIn("scalar kept_share() const noexcept", header)
         self.assertIn("// at the motor's limit: the law sheds", header)
         self.dashpot("verify", "slip_certificate.json", "slip.hpp")
 
     def test_emitted_code_sheds_as_simulate_does(self):
-        """Fails if a header, in either timing, or C99 sheds otherwise than the law that simulate runs, or not at all."""
+        """Fails if a header, in either timing, or C99 sheds otherwise than the law that simulate runs, or not at
+        all."""
         self.explained("slip.json", max_torque="5 N", slew="400 N/s")
         choices = ["slip.json", "--device", "slewing.json", "--decomposition", "velocity-free"]
         rows = [(k * 1e-3, 0.02 * math.sin(0.006 * k) + 0.003 * math.sin(0.05 * k)) for k in range(1000)]
@@ -729,12 +785,15 @@ class MotorLimits(CommandTest):
                   fprintf(stderr, "%d", shed);
                   return 0;
                 }}\n"""
-        self.write("m.cpp", driver("slip.hpp", "dashpot::generated::slip m; m.reset(0);", "const auto c = m.step(p, v);", "m.kept_share()"))
-        self.write("m.c", driver("slip.h", "slip m; slip_reset(&m, 0);", "const dashpot_command c = slip_step(&m, p, v);", "m.sampled_share"))
+        self.write("m.cpp", driver("slip.hpp", "dashpot::generated::slip m; m.reset(0);",
+                                   "const auto c = m.step(p, v);", "m.kept_share()"))
+        self.write("m.c", driver("slip.h", "slip m; slip_reset(&m, 0);",
+                                 "const dashpot_command c = slip_step(&m, p, v);", "m.sampled_share"))
         cpp, c = [os.environ.get("CXX", "c++"), "-std=c++17", "m.cpp"], [os.environ.get("CC", "cc"), "-std=c99", "m.c"]
         for options, compiler in [([], cpp), (["--constant-time"], cpp), (["--target", "c99"], c)]:
             self.dashpot("compile", *choices, *options)
-            subprocess.run([*compiler, "-O1", "-ffp-contract=off", f"-I{SOURCE}/runtime/include", "-o", "m"], cwd=self.folder, check=True)
+            subprocess.run([*compiler, "-O1", "-ffp-contract=off", f"-I{SOURCE}/runtime/include", "-o", "m"],
+                           cwd=self.folder, check=True)
             done = subprocess.run(["./m"], input=motion, cwd=self.folder, capture_output=True, text=True, check=True)
             self.assertEqual([float(line) for line in done.stdout.split()], expected, options)
             self.assertGreater(int(done.stderr), 20)

@@ -40,8 +40,8 @@ def recording(rows=400, period=0.005, header="time [s],position [mm],force [N]",
 
 
 def approach(force_after_lift_off=0.0, noise=0.004):
-    """A Zener body whose surface is at 2.6 mm: the tool comes from 0, presses to 6.6 mm, holds, and goes back faster than
-    the body. In the rows after it has left, a force of one's own. Its noise is that of an even distribution."""
+    """A Zener body whose surface is at 2.6 mm: the tool comes from 0, presses to 6.6 mm, holds, and goes back faster
+    than the body. In the rows after it has left, a force of one's own. Its noise is that of an even distribution."""
     h, surface, relaxation = 0.01, 2.6e-3, 0.4
     decay, q, last, rows, seed = math.exp(-h / relaxation), 0.0, 0.0, [], 7
     share, has_left = (1 - decay) * relaxation / h, False
@@ -55,7 +55,8 @@ def approach(force_after_lift_off=0.0, noise=0.004):
             force = 150 * u + q
             has_left = force < 0
         seed = 16807 * seed % 2147483647
-        force = max(0.0, force) + (force_after_lift_off if has_left else 0) + noise * math.sqrt(12) * (seed / 2147483647 - 0.5)
+        force = max(0.0, force) + (force_after_lift_off if has_left
+                                   else 0) + noise * math.sqrt(12) * (seed / 2147483647 - 0.5)
         rows.append(f"{t:.2f},{1e3 * x:.5f},{force:.6f}")
     return "\n".join(["time [s],position [mm],force [N]", *rows]) + "\n"
 
@@ -76,7 +77,8 @@ class Fit(CommandTest):
             self.assertAlmostEqual(element["value"] / value, 1, places=4)
         self.dashpot("check", "zener.json")
         rows = list(csv.DictReader(recording(header="time,position,force").splitlines()))
-        self.write("motion.csv", "time,position\n" + "".join(f"{r['time']},{float(r['position']) / 1e3!r}\n" for r in rows))
+        self.write("motion.csv", "time,position\n" +
+                   "".join(f"{r['time']},{float(r['position']) / 1e3!r}\n" for r in rows))
         self.dashpot("simulate", "zener.json", "--input", "motion.csv", "-o", "forces.csv")
         forces = [float(r["force"]) for r in csv.DictReader((self.folder / "forces.csv").read_text().splitlines())]
         left = [a - float(r["force"]) for a, r in zip(forces, rows)]
@@ -100,10 +102,12 @@ int main() {
   }
 }
 """)
-        subprocess.run([os.environ.get("CXX", "c++"), "-std=c++17", "-O1", "-ffp-contract=off", f"-I{SOURCE}/runtime/include", "main.cpp",
+        subprocess.run([os.environ.get("CXX", "c++"), "-std=c++17", "-O1", "-ffp-contract=off",
+                        f"-I{SOURCE}/runtime/include", "main.cpp",
                         "-o", "main"], cwd=self.folder, check=True)
         with (self.folder / "motion.csv").open() as motion:
-            printed = subprocess.run(["./main"], cwd=self.folder, stdin=motion, capture_output=True, text=True, check=True)
+            printed = subprocess.run(["./main"], cwd=self.folder, stdin=motion, capture_output=True, text=True,
+                                     check=True)
         self.assertEqual([float(line) for line in printed.stdout.split()], forces)
 
     def test_tells_its_own_record(self):
@@ -127,7 +131,8 @@ int main() {
         self.assertIn("dashpot fit bare.csv -o bare.json --columns time=t:s,position=x:mm,force=f:N", done.stderr)
         self.assertEqual(self.files(), ["bare.csv"])
         self.fit("bare.csv", "-o", "bare.json", "--columns", "time=t:s,position=x:mm,force=f:N")
-        done = self.dashpot("fit", TITIN[0], "--columns", "time=Time:s,strain=L-0.95,stress=F:kPa", status=INPUT_REFUSED)
+        done = self.dashpot("fit", TITIN[0], "--columns", "time=Time:s,strain=L-0.95,stress=F:kPa",
+                            status=INPUT_REFUSED)
         self.assertIn("[recording-without-geometry]", done.stderr)
 
     def test_several_files(self):
@@ -142,9 +147,11 @@ int main() {
             self.assertIn(part, page)
         self.assertNotIn("http", page.replace("http-equiv", ""))
         # Folders belong to the command: titles of figures are as narrow as those.
-        for part, is_there in ((">shear_relaxation_1.csv<", True), ("fitted, with bootstrap", True), ("<th>95 %</th>", False)):
+        for part, is_there in ((">shear_relaxation_1.csv<", True), ("fitted, with bootstrap", True),
+                               ("<th>95 %</th>", False)):
             self.assertEqual(part in page, is_there, part)
-        files = [recording["file"] for recording in json.loads((self.folder / "adhesive.json").read_text())["fit"]["recordings"]]
+        files = [recording["file"]
+                 for recording in json.loads((self.folder / "adhesive.json").read_text())["fit"]["recordings"]]
         self.assertEqual(files, [path.name for path in ADHESIVE])
         self.dashpot("compile", "adhesive.json", "-o", ".")
         held = self.told(*ADHESIVE[:2], "--hold-out", ADHESIVE[2])
@@ -160,10 +167,12 @@ int main() {
         self.assertIn("[fit-floor-above-noise]", self.fit(*ADHESIVE).stderr)
         self.assertIn("no linear network leaves less", done.stdout)
         # Forces late by half a row: 2e-4 of the force cannot be fitted, far above the noise, and mean nothing.
-        header, *rows = recording(rows=12000, period=0.00025, motion=lambda t: 2e-3 * math.sin(2 * t), late=2).splitlines()
+        header, *rows = recording(rows=12000, period=0.00025, motion=lambda t: 2e-3 * math.sin(2 * t),
+                                  late=2).splitlines()
         self.write("nearly_exact.csv", "\n".join([header, *rows[::4]]) + "\n")
         self.assertNotIn("[fit-floor-above-noise]", self.fit("nearly_exact.csv").stderr)
-        ramp = "time [s],position [mm],force [N]\n" + "".join(f"{i},{i / 10},{i / 10 + (i % 3) / 100}\n" for i in range(200))
+        ramp = "time [s],position [mm],force [N]\n" + "".join(f"{i},{i / 10},{i / 10 + (i % 3) / 100}\n"
+                                                              for i in range(200))
         self.write("ramp.csv", ramp)
         done = self.fit("ramp.csv")
         self.assertIn("[fit-loading-only]", done.stderr)
@@ -177,7 +186,8 @@ int main() {
         self.write("approach.csv", approach())
         self.write("sticks.csv", approach(force_after_lift_off=-0.3))
         self.write("triangles.csv", recording(rows=1600, period=0.01, motion=triangles))
-        self.write("ramp.csv", "time [s],position [mm],force [N]\n" + "".join(f"{i},{i},{i + i % 3}\n" for i in range(200)))
+        self.write("ramp.csv", "time [s],position [mm],force [N]\n" +
+                   "".join(f"{i},{i},{i + i % 3}\n" for i in range(200)))
         self.write("slow.csv", "time [s],modulus [N/m]\n" + "".join(
             f"{0.1 * 1.2 ** i!r},{100 + 50 * math.exp(-0.1 * 1.2 ** i / 5000)!r}\n" for i in range(38)))
         # A force at twice the frequency of the motion: no spring, damper or slip makes it.
@@ -231,7 +241,8 @@ int main() {
         told = self.fit(*asked, "time=time:s,modulus=stiffness:N/mm").stderr
         self.assertIn("column 'stiffness [N/m]' is in 'N/m' by its header, and in 'N/mm' by --columns, which counts "
                       "[recording-unit-overruled]", told)
-        self.assertNotIn("[recording-unit-overruled]", self.fit(*asked, "time=time:s,modulus=stiffness:N/m", "-o", "step.json").stderr)
+        self.assertNotIn("[recording-unit-overruled]",
+                         self.fit(*asked, "time=time:s,modulus=stiffness:N/m", "-o", "step.json").stderr)
         self.assertEqual(json.loads((self.folder / "step.json").read_text())["name"], "step_1")
         told = self.fit("absent.csv", "--name", "step", status=COMMAND_LINE_WRONG).stderr
         self.assertIn("[name-is-member]", told)
@@ -245,7 +256,8 @@ int main() {
         self.assertAlmostEqual(two["rms"] / one["rms"], 2, places=3)
         self.fit(*TITIN, *MUSCLE, "-o", "muscle.json")
         self.assertIn("a column, f = E A u/L", (self.folder / "muscle.json").read_text())
-        self.fit(RECORDINGS / "brain/brain_relax_amedieu2004.csv", "--relaxation", "--columns", "time=t:s,modulus=relax_normalised",
+        self.fit(RECORDINGS / "brain/brain_relax_amedieu2004.csv", "--relaxation", "--columns",
+                 "time=t:s,modulus=relax_normalised",
                  "--scale", "1kPa", "--geometry", "punch:radius=5mm", "--modes", "2", "-o", "brain.json")
         self.dashpot("check", "brain.json")
 
@@ -279,15 +291,19 @@ int main() {
         self.write("zener.csv", recording())
         for words, code in (
                 (["--shape", "power", "--control", "force"], "fit-choices-contradict"),
-                (["--shape", "auto", "--relaxation"], "fit-choices-contradict"), (["--elastic", "--creep"], "fit-choices-contradict"),
-                (["--elastic", "--modes", "2"], "fit-choices-contradict"), (["--elastic", "--slips", "auto"], "fit-choices-contradict"),
+                (["--shape", "auto", "--relaxation"], "fit-choices-contradict"),
+                (["--elastic", "--creep"], "fit-choices-contradict"),
+                (["--elastic", "--modes", "2"], "fit-choices-contradict"),
+                (["--elastic", "--slips", "auto"], "fit-choices-contradict"),
                 (["--columns", "thyme=t:s"], "columns-malformed"), (["--columns", "time"], "columns-malformed"),
-                (["--geometry", "cube:edge=1mm"], "geometry-malformed"), (["--geometry", "punch:radius=1s"], "geometry-malformed"),
+                (["--geometry", "cube:edge=1mm"], "geometry-malformed"),
+                (["--geometry", "punch:radius=1s"], "geometry-malformed"),
                 (["--geometry", "needle:radius=2mm,length=1mm,outer=1mm"], "geometry-malformed"),
                 (["--scale", "much"], "fit-wrong-quantity"), (["--tolerance", "1mm"], "fit-wrong-quantity"),
                 (["--tolerance", "0"], "fit-wrong-quantity"), (["--contact", "2N"], "fit-wrong-quantity"),
                 (["--force-delay", "2mm"], "fit-wrong-quantity"), (["--slips", "many"], "fit-wrong-quantity"),
-                (["--relaxation", "--creep"], "fit-choices-contradict"), (["--gain-per-file"], "fit-choices-contradict"),
+                (["--relaxation", "--creep"], "fit-choices-contradict"),
+                (["--gain-per-file"], "fit-choices-contradict"),
                 (["--slips", "auto", "--control", "force"], "fit-choices-contradict"),
                 (["--springpots", "auto", "--control", "force"], "fit-choices-contradict")):
             done = self.dashpot("fit", "zener.csv", *words, status=COMMAND_LINE_WRONG)
@@ -296,7 +312,8 @@ int main() {
         self.dashpot("fit", "zener.csv", "--weight", "some", status=COMMAND_LINE_WRONG)
         self.dashpot("fit", "zener.csv", "--shape", "sphere", status=COMMAND_LINE_WRONG)
         spectrum = self.write("spectrum.csv", "omega [rad/s],storage [N/m],loss [N/m]\n1,1,1\n2,2,1\n3,3,1\n")
-        self.assertIn("--shape with a spectrum", self.dashpot("fit", spectrum, "--shape", "auto", status=INPUT_REFUSED).stderr)
+        self.assertIn("--shape with a spectrum",
+                      self.dashpot("fit", spectrum, "--shape", "auto", status=INPUT_REFUSED).stderr)
         self.dashpot("fit", "zener.csv", "-o", "zener.csv", status=COMMAND_LINE_WRONG)
         self.assertIn("[cannot-read-file]", self.dashpot("fit", "none.csv", status=INPUT_REFUSED).stderr)
         self.assertIn("[recordings-differ]", self.dashpot(
@@ -304,7 +321,8 @@ int main() {
             status=INPUT_REFUSED).stderr)
 
     def test_the_same_recording_twice(self):
-        """Fails if one recording counts twice, or is held out of itself, without a word; or if another one is taken for it."""
+        """Fails if one recording counts twice, or is held out of itself, without a word; or if another one is taken for
+        it."""
         self.write("zener.csv", recording())
         self.write("copy.csv", recording())
         self.write("other.csv", recording() + "\n")
@@ -317,7 +335,8 @@ int main() {
     def test_a_delay_longer_than_the_recording(self):
         """Fails if a force is moved beyond the ends of its recording, where nothing is known of it."""
         self.write("zener.csv", recording())
-        self.assertIn("[recording-delay-too-long]", self.dashpot("fit", "zener.csv", "--force-delay", "1000 s", status=INPUT_REFUSED).stderr)
+        self.assertIn("[recording-delay-too-long]",
+                      self.dashpot("fit", "zener.csv", "--force-delay", "1000 s", status=INPUT_REFUSED).stderr)
 
     def test_check_reads_what_is_there(self):
         """Fails if check takes a recording or a device for a broken network, or a broken recording for a sound one."""
@@ -354,7 +373,8 @@ int main() {
         times = [0.01 * 1.2 ** i for i in range(40)]
         relaxing = [(t, 100 + 150 * math.exp(-t / 0.3)) for t in times]
         creeping = [(t, 1 / 100 - (1 / 100 - 1 / 250) * math.exp(-t / 0.75)) for t in times]
-        for option, header, rows in [("--relaxation", "modulus [N/m]", relaxing), ("--creep", "compliance [m/N]", creeping)]:
+        for option, header, rows in [("--relaxation", "modulus [N/m]", relaxing),
+                                     ("--creep", "compliance [m/N]", creeping)]:
             self.write("table.csv", f"time [s],{header}\n" + "".join(f"{t!r},{value!r}\n" for t, value in rows))
             done = self.dashpot("check", "table.csv")
             self.assertEqual(done.stdout + done.stderr, "")
@@ -362,7 +382,8 @@ int main() {
             self.fit("table.csv", "--name", "body", option, "-o", "asked.json")
             plain, asked = ((self.folder / name).read_text() for name in ["plain.json", "asked.json"])
             self.assertEqual(plain.replace("plain.json", ""), asked.replace(f"{option} ", "").replace("asked.json", ""))
-            self.refused("fit", "table.csv", "--columns", "time=time", "-o", "not.json", code="recording-column-missing")
+            self.refused("fit", "table.csv", "--columns", "time=time", "-o", "not.json",
+                         code="recording-column-missing")
 
     def test_a_unit_that_is_not_known(self):
         """Fails if a row of units with one that is not known is taken for names, whose units are then made up."""
@@ -380,7 +401,8 @@ int main() {
         self.assertIn("has to be converted first", told)
 
     def test_an_empty_last_field(self):
-        """Fails if a row whose last field is empty is said to be short of it; or a row that only ends with a comma is refused."""
+        """Fails if a row whose last field is empty is said to be short of it; or a row that only ends with a comma is
+        refused."""
         rows = recording().splitlines()
         self.write("open.csv", "\n".join(rows[:50] + [rows[50].rsplit(",", 1)[0] + ","] + rows[51:]) + "\n")
         done = self.refused("fit", "open.csv", "-o", "not.json", code="recording-not-a-number")
@@ -404,19 +426,23 @@ int main() {
         done = self.fit(*columns, "--contact", "find", "-o", "fitted.json")
         self.assertRegex(done.stdout, r"surface found at (500|499\.\d|500\.\d) um")
         self.assertRegex(done.stdout, r"\d+ of the rows are left out: there the tool has left the tissue")
-        self.assertGreater(json.loads((self.folder / "fitted.json").read_text())["fit"]["recordings"][0]["free_rows"], 5)
+        self.assertGreater(json.loads((self.folder / "fitted.json").read_text())["fit"]["recordings"][0]["free_rows"],
+                           5)
         told = self.told(*columns, "--contact", "0.5 mm")
         self.assertEqual(told["contact"], {"at": 5e-4, "found": False})
         for element, value in zip(told["elements"], (300, 200, 100), strict=True):
             self.assertAlmostEqual(element["value"] / value, 1, places=4)
 
     def test_a_tool_that_comes_from_in_front(self):
-        """Fails if a recording that begins in front of the tissue is fitted as if it touched, and nobody hears of it."""
+        """Fails if a recording that begins in front of the tissue is fitted as if it touched, and nobody hears of
+        it."""
         self.write("approach.csv", approach())
         self.write("zener.csv", recording())
         for words in ([], ["--shape", "auto"]):
             done = self.fit("approach.csv", *words)
-            self.assertRegex(done.stderr, r"in 'approach.csv' the force stays at its noise while the tool goes from 0 m to 2\.6\d* mm")
+            self.assertRegex(done.stderr,
+                             "in 'approach.csv' the force stays at its noise while the tool goes from "
+                             r"0 m to 2\.6\d* mm")
             self.assertIn("note: --contact find looks for the surface", done.stderr)
         self.assertNotIn("[fit-untouched]", self.fit("approach.csv", "--contact", "find").stderr)
         self.assertNotIn("[fit-untouched]", self.fit("zener.csv").stderr)
@@ -471,7 +497,8 @@ int main() {
     def test_larger_than_other_files(self):
         """Fails if a recording above the 16 MiB of other files is refused."""
         rows = recording(400).splitlines()
-        wide = rows[0] + "".join(f",c{i} [V]" for i in range(400)) + "\n" + "\n".join(row + ",0.123456789" * 400 for row in rows[1:]) + "\n"
+        wide = rows[0] + "".join(f",c{i} [V]" for i in range(400)) + "\n" + "\n".join(row + ",0.123456789" * 400
+                                                                                      for row in rows[1:]) + "\n"
         text = wide + "".join(f"{2 + i / 200:.3f},0,0" + ",0.123456789" * 400 + "\n" for i in range(3500))
         self.assertGreater(len(text), 16 << 20)
         self.write("wide.csv", text)

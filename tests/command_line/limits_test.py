@@ -28,12 +28,14 @@ def parallel_springs(count):
 
 def ladder(inner_nodes):
     ends = ["tool"] + [f"n{i}" for i in range(inner_nodes)]
-    rungs = [{"spring": 1, "nodes": [a, b]} for a, b in zip(ends, ends[1:])] + [{"damper": 1, "nodes": [end, "ground"]} for end in ends[1:]]
+    rungs = [{"spring": 1, "nodes": [a, b]} for a, b in zip(ends, ends[1:])] + [{"damper": 1, "nodes": [end, "ground"]}
+                                                                                for end in ends[1:]]
     return json.dumps({"dashpot": 1, "name": "ladder", "elements": rungs})
 
 
 def device(**sections):
-    return json.dumps({"dashpot_device": 1, "name": "arm", "motion": "translation", "loop": {"rate": 1000}, "encoder": {"resolution": 1e-5},
+    return json.dumps({"dashpot_device": 1, "name": "arm", "motion": "translation", "loop": {"rate": 1000},
+                       "encoder": {"resolution": 1e-5},
                        **sections})
 
 
@@ -55,7 +57,8 @@ class Limits(CommandTest):
         whole = KELVIN + " " * (LARGEST_FILE - len(KELVIN))
         self.taken(whole)
         self.write("large", whole + " ")
-        for command in [["check", "large"], ["compile", "kelvin.json", "--device", "large"], ["simulate", "kelvin.json", "--input", "large"],
+        for command in [["check", "large"], ["compile", "kelvin.json", "--device", "large"],
+                        ["simulate", "kelvin.json", "--input", "large"],
                         ["verify", "large", "out/kelvin.hpp"], ["verify", "certificate.json", "large"]]:
             self.assertIn("is larger than 16 MiB", self.refused(*command, code="file-too-large").stderr)
 
@@ -70,7 +73,8 @@ class Limits(CommandTest):
         """Fails if more elements or values than stated pass, or as many are refused."""
         self.taken(parallel_springs(20000))
         self.assertIn("20001 elements; at most 20000", self.refuses(parallel_springs(20001), "too-many-elements"))
-        self.assertIn("more than 500000 values", self.refuses('{ "dashpot": 1, "name": "sample", "network": [' + "1," * 500000 + "1] }", "too-many-values"))
+        self.assertIn("more than 500000 values", self.refuses('{ "dashpot": 1, "name": "sample", "network": [' +
+                                                              "1," * 500000 + "1] }", "too-many-values"))
 
     def test_numbers(self):
         """Fails if a number that no double holds becomes another one."""
@@ -97,23 +101,31 @@ class Limits(CommandTest):
         for rate in ["0.9e-6", "1.1e9"]:
             told = self.dashpot("compile", "kelvin.json", "--rate", rate, status=COMMAND_LINE_WRONG).stderr
             self.assertIn("from 1e-06 to 1e+09 is expected", told)
-            self.refused("compile", "kelvin.json", "--device", self.write("arm.json", device(loop={"rate": float(rate)})), code="device-limit")
-        self.refused("simulate", "kelvin.json", "--input", self.write("motion.csv", "time,position\n0,0\n0.9e-9,0\n"), code="csv-rate-too-high")
+            self.refused("compile", "kelvin.json", "--device",
+                         self.write("arm.json", device(loop={"rate": float(rate)})), code="device-limit")
+        self.refused("simulate", "kelvin.json", "--input", self.write("motion.csv", "time,position\n0,0\n0.9e-9,0\n"),
+                     code="csv-rate-too-high")
 
     def test_devices(self):
         """Fails if what a certificate multiplies can leave the doubles, or a bound takes minutes."""
-        within = {"loop": {"rate": 1000, "jitter": 1e6, "delay_samples": 64}, "encoder": {"resolution": 1e-5, "max_speed": 1e9}, "motor": {"amplifier_lag": 1e6},
+        within = {"loop": {"rate": 1000, "jitter": 1e6, "delay_samples": 64},
+                  "encoder": {"resolution": 1e-5, "max_speed": 1e9}, "motor": {"amplifier_lag": 1e6},
                   "velocity": {"estimator": "least_squares", "window": 256},
                   "brake": {"kind": "eddy_current", "max_damping": 1, "coil_lag": 1e6, "critical_speed": 1e-9}}
         self.dashpot("check", "kelvin.json", "--device", self.write("within.json", device(**within)))
-        for section, key, value, code in [("loop", "delay_samples", 65, "device-limit"), ("encoder", "max_speed", 1.1e9, "device-limit"),
+        for section, key, value, code in [("loop", "delay_samples", 65, "device-limit"),
+                                          ("encoder", "max_speed", 1.1e9, "device-limit"),
                                           ("motor", "amplifier_lag", 1.1e6, "device-limit"),
-                                          ("loop", "jitter", 1.1e6, "device-limit"), ("brake", "coil_lag", 1.1e6, "device-limit"), ("velocity", "window", 257, "estimator-setting"),
-                                          ("brake", "critical_speed", 0.9e-9, "device-limit"), ("brake", "critical_speed", 1.1e9, "device-limit")]:
+                                          ("loop", "jitter", 1.1e6, "device-limit"),
+                                          ("brake", "coil_lag", 1.1e6, "device-limit"),
+                                          ("velocity", "window", 257, "estimator-setting"),
+                                          ("brake", "critical_speed", 0.9e-9, "device-limit"),
+                                          ("brake", "critical_speed", 1.1e9, "device-limit")]:
             with self.subTest(key=key, value=value):
                 beyond = self.write("beyond.json", device(**{**within, section: {**within[section], key: value}}))
                 told = self.refused("check", "kelvin.json", "--device", beyond, code=code).stderr
-                errors = "\n".join(line for line in told.splitlines() if ": error: " in line)  # such a coil is warned of, too
+                # such a coil is warned of, too
+                errors = "\n".join(line for line in told.splitlines() if ": error: " in line)
                 self.assertEqual(codes(errors), [code])
 
     def test_every_message_of_the_table(self):

@@ -1,4 +1,5 @@
-"""Networks with evidence: what networks/tissues/ says of where its numbers are from, and that fitting again gives them."""
+"""Networks with evidence: what networks/tissues/ says of where its numbers are from, and that fitting again gives
+them."""
 import json
 import re
 import shlex
@@ -30,7 +31,8 @@ class Measured(CommandTest):
         return (folder / network.name).read_text()
 
     def test_fitting_again_gives_the_file(self):
-        """Fails if a network is not what its own command makes of its own recordings; the last of four digits may turn."""
+        """Fails if a network is not what its own command makes of its own recordings; the last of four digits may
+        turn."""
         self.assertGreaterEqual(len(MEASURED), 5)
         for network in MEASURED:
             with self.subTest(network.stem):

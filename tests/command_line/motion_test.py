@@ -20,7 +20,8 @@ def table(rows, names="time,position"):
 
 
 def sine(rate, seconds=1.0, amplitude=0.003, frequency=2.0):
-    return [(k / rate, amplitude * (1 - math.cos(2 * math.pi * frequency * k / rate))) for k in range(int(seconds * rate) + 1)]
+    return [(k / rate, amplitude * (1 - math.cos(2 * math.pi * frequency * k / rate)))
+            for k in range(int(seconds * rate) + 1)]
 
 
 class Motion(CommandTest):
@@ -28,7 +29,8 @@ class Motion(CommandTest):
         """A paddle without imperfection but for `changes` of its sections."""
         told = {"dashpot_device": 1, "name": "paddle", "motion": "translation", "loop": {"rate": "2 kHz"},
                 "velocity": {"estimator": "backward_difference", "window": 1}, "motor": {},
-                "brake": {"kind": "eddy_current", "max_damping": "50 N s/m"}, "mechanics": {"inertia": "0.2 kg", "damping": "20 N s/m"}}
+                "brake": {"kind": "eddy_current", "max_damping": "50 N s/m"},
+                "mechanics": {"inertia": "0.2 kg", "damping": "20 N s/m"}}
         for section, more in changes.items():
             told[section] = told[section] | more if section in told and section != "velocity" else more
         return self.write("device.json", json.dumps(told))
@@ -36,13 +38,15 @@ class Motion(CommandTest):
     def played(self, net, device, motion, *choices):
         """Rows of the file, and what is printed, as JSON."""
         self.write("motion.csv", motion)
-        told = json.loads(self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv", "--json", *choices).stdout)
+        told = json.loads(self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv",
+                                       "--json", *choices).stdout)
         rows = list(csv.reader(io.StringIO((self.folder / "felt.csv").read_text())))
         self.assertEqual(rows[0], COLUMNS)
         return [dict(zip(COLUMNS, map(float, row))) for row in rows[1:]], told
 
     def test_closed_form(self):
-        """Fails if the network's force along a recorded motion is not that of its relaxations, at whatever rate it was recorded."""
+        """Fails if the network's force along a recorded motion is not that of its relaxations, at whatever rate it was
+        recorded."""
         net = self.write("solid.json", network(SOLID, "solid"))
         points = [(0.0, 0.0), (0.25, 0.004), (0.5, 0.004), (0.75, 0.001)]
         rows, _ = self.played(net, self.device(), table(points))
@@ -55,7 +59,8 @@ class Motion(CommandTest):
             for rate, damping in [(90 / 4, 4), (300, 1)]:
                 inside = 0.0
                 for start, end, v in [(0, 0.25, 0.016), (0.25, 0.5, 0), (0.5, 0.75, -0.012)]:
-                    if t > start: inside = damping * v + (inside - damping * v) * math.exp(-rate * (min(t, end) - start))
+                    if t > start:
+                        inside = damping * v + (inside - damping * v) * math.exp(-rate * (min(t, end) - start))
                 force += inside
             self.assertAlmostEqual(row["position"], u, delta=1e-9)
             self.assertAlmostEqual(row["closed_form"], force, delta=1e-9)
@@ -65,12 +70,14 @@ class Motion(CommandTest):
         net = self.write("solid.json", network(SOLID, "solid"))
         errors = []
         for rate in (2000, 8000):
-            rows, told = self.played(net, self.device(loop={"rate": f"{rate} Hz"}), table(sine(rate)), "--decomposition", "velocity-free", "--state-input", "position")
+            rows, told = self.played(net, self.device(loop={"rate": f"{rate} Hz"}), table(sine(rate)),
+                                     "--decomposition", "velocity-free", "--state-input", "position")
             errors.append(told["error"]["rms_share"])
             differences = [row["felt_force"] - row["closed_form"] for row in rows]
             added = max(abs(value) for value in differences)
             self.assertAlmostEqual(told["error"]["peak"], added, delta=1e-12 * added)
-            self.assertAlmostEqual(told["error"]["rms"], math.sqrt(sum(d * d for d in differences) / len(rows)), delta=1e-12)
+            self.assertAlmostEqual(told["error"]["rms"], math.sqrt(sum(d * d for d in differences) / len(rows)),
+                                   delta=1e-12)
             self.assertAlmostEqual(told["force"]["peak"], max(abs(row["closed_form"]) for row in rows), delta=1e-12)
         self.assertLess(errors[0], 0.02)
         self.assertLess(errors[1], errors[0] / 2)
@@ -80,7 +87,8 @@ class Motion(CommandTest):
         net = self.write("solid.json", network(SOLID, "solid"))
         choices = ["--decomposition", "3"]
         _, exact = self.played(net, self.device(), table(sine(2000)), *choices)
-        changes = {"encoder": {"encoder": {"resolution": "0.5 mm"}}, "estimator": {"velocity": {"estimator": "butterworth", "order": 4, "cutoff": "20 Hz"}},
+        changes = {"encoder": {"encoder": {"resolution": "0.5 mm"}},
+                   "estimator": {"velocity": {"estimator": "butterworth", "order": 4, "cutoff": "20 Hz"}},
                    "delay": {"loop": {"delay_samples": 20}}, "amplifier": {"motor": {"amplifier_lag": "15 ms"}},
                    "coil": {"brake": {"coil_lag": "200 ms"}}, "limit": {"motor": {"max_torque": "0.05 N"}}}
         for name, change in changes.items():
@@ -89,7 +97,8 @@ class Motion(CommandTest):
                 more = ["--decomposition", "0"] if name == "limit" else choices
                 _, told = self.played(net, device, table(sine(2000)), *more)
                 # A coil has settled before the motion begins, and b does not change: it is the one that is not felt.
-                if name == "coil": self.assertAlmostEqual(told["error"]["rms"], exact["error"]["rms"], delta=1e-3 * exact["force"]["rms"])
+                if name == "coil": self.assertAlmostEqual(told["error"]["rms"], exact["error"]["rms"],
+                                                          delta=1e-3 * exact["force"]["rms"])
                 else: self.assertGreater(told["error"]["rms"], 2 * exact["error"]["rms"])
 
     def test_what_the_brake_and_the_motor_do(self):
@@ -102,11 +111,14 @@ class Motion(CommandTest):
         self.assertGreater(damping[0], 0)
         self.assertEqual((told["brake"]["most"], told["brake"]["for_passivity"]), (damping[0], damping[0]))
         self.assertAlmostEqual(told["brake"]["mean"], damping[0], delta=1e-12)
-        # 200 N/m times up to 6 mm are more than 1 N for a third of the time; where a law sheds, it has less to make on the way back.
+        # 200 N/m times up to 6 mm are more than 1 N for a third of the time; where a law sheds, it has less to make on
+        # the way back.
         self.assertGreater(told["limited_samples"], 0.1 * len(rows))
-        printed = self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv", "--decomposition",
+        printed = self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv",
+                               "--decomposition",
                                "velocity-free").stdout
-        self.assertIn(f"the brake is told {damping[0]:.4g} N s/m on average, {damping[0]:.4g} at most; of it {damping[0]:.4g} are there "
+        self.assertIn(f"the brake is told {damping[0]:.4g} N s/m on average, {damping[0]:.4g} at most; of it "
+                      f"{damping[0]:.4g} are there "
                       "for passivity alone\n", printed)
         self.assertIn(f"the motor's limits: reached in {told['limited_samples']} samples of {len(rows)}; ", printed)
         _, strong = self.played(net, self.device(), table(sine(2000)), "--decomposition", "velocity-free")
@@ -116,11 +128,13 @@ class Motion(CommandTest):
         """Fails if a spring n samples late is not felt as the spring that it was n and a half samples ago."""
         net = self.write("spring.json", network('{ "spring": 200 }', "spring"))
         for delay in (0, 3):
-            rows, _ = self.played(net, self.device(loop={"delay_samples": delay}, motor={"max_torque": "100 N"}), table(sine(2000)), "--decomposition", "velocity-free")
+            rows, _ = self.played(net, self.device(loop={"delay_samples": delay}, motor={"max_torque": "100 N"}),
+                                  table(sine(2000)), "--decomposition", "velocity-free")
             for row in rows[100:1900:83]:
                 past = row["time"] - (delay + 0.5) / 2000
                 # The staircase is felt as the mean of two steps, and damping is added for passivity.
-                wanted = 200 * 0.003 * (1 - math.cos(4 * math.pi * past)) + row["damping"] * 0.003 * 4 * math.pi * math.sin(4 * math.pi * row["time"])
+                wanted = 200 * 0.003 * (1 - math.cos(
+                    4 * math.pi * past)) + row["damping"] * 0.003 * 4 * math.pi * math.sin(4 * math.pi * row["time"])
                 self.assertAlmostEqual(row["felt_force"], wanted, delta=2e-3 * (1 + abs(wanted)))
 
     def test_slips_and_tunables(self):
@@ -138,8 +152,9 @@ class Motion(CommandTest):
 
     def test_a_static_curve(self):
         """Fails if a network behind a static curve is compared with the straight one that stands in its file."""
-        net = self.write("curve.json", network(SOLID, "curve", '"static": { "power": 1.5, "force": "2 N", "at": "10 mm" }, '
-                                                               '"valid": { "displacement": "10 mm", "rate": "50 mm/s" },'))
+        net = self.write("curve.json",
+                         network(SOLID, "curve", '"static": { "power": 1.5, "force": "2 N", "at": "10 mm" }, '
+                                                 '"valid": { "displacement": "10 mm", "rate": "50 mm/s" },'))
         seconds, depth = 20, 0.008
         held = [(k / 100, depth * min(k / 100, 1)) for k in range(100 * seconds + 1)]
         rows, told = self.played(net, self.device(), table(held))
@@ -181,13 +196,15 @@ class Motion(CommandTest):
 
     def test_a_rotation_on_a_device_with_an_arm(self):
         """Fails if a network that rotates is led by the arm of a device that has one: the joint is then its tool."""
-        knob = self.write("knob.json", json.dumps({"dashpot": 1, "name": "knob", "motion": "rotation", "network": {"parallel": [
+        knob = self.write("knob.json",
+                          json.dumps({"dashpot": 1, "name": "knob", "motion": "rotation", "network": {"parallel": [
             {"spring": "20 mN m/rad"}, {"damper": "0.5 mN m s/rad"}]}}))
         swing = table([(k / 500, 0.3 * (1 - math.cos(4 * math.pi * k / 500))) for k in range(501)])
         told = {"dashpot_device": 1, "name": "rig", "motion": "rotation", "loop": {"rate": "2 kHz"},
                 "encoder": {"counts_per_turn": 16000, "range": ["-60 deg", "60 deg"]},
                 "velocity": {"estimator": "backward_difference", "window": 4}, "motor": {"max_torque": "0.25 N m"},
-                "brake": {"kind": "eddy_current", "max_damping": "10 mN m s/rad"}, "mechanics": {"inertia": "0.15 g m^2"}}
+                "brake": {"kind": "eddy_current", "max_damping": "10 mN m s/rad"},
+                "mechanics": {"inertia": "0.15 g m^2"}}
         bare = self.write("bare.json", json.dumps(told))
         arm = self.write("arm.json", json.dumps({**told, "arm_radius": "60 mm"}))
         rows, without = self.played(knob, bare, swing)
@@ -196,9 +213,11 @@ class Motion(CommandTest):
         self.assertEqual(with_arm["error"], without["error"])
         self.assertAlmostEqual(max(row["position"] for row in same), 0.6, delta=1e-6)
         # A hand, too: it holds the joint.
-        runs = [self.dashpot("run", knob, "--device", device, "--fast", "--for", "1", "--hand", "firm", "-o", f"{name}.csv").stdout
+        runs = [self.dashpot("run", knob, "--device", device, "--fast", "--for", "1", "--hand", "firm", "-o",
+                             f"{name}.csv").stdout
                 for name, device in (("bare_run", bare), ("arm_run", arm))]
-        self.assertEqual(*[(self.folder / f"{name}.csv").read_text().split("\n", 1)[1:] for name in ("bare_run", "arm_run")])
+        self.assertEqual(*[(self.folder / f"{name}.csv").read_text().split("\n", 1)[1:]
+                           for name in ("bare_run", "arm_run")])
         self.assertIn("left safe", runs[1])
 
     def test_another_rate(self):
@@ -217,7 +236,8 @@ class Motion(CommandTest):
         the same seed."""
         self.write("motion.csv", table(sine(250)))
         done = self.dashpot("run", FIG_5, "--device", PANTOGRAPH, "--motion", "motion.csv")
-        for words in ["10001 samples at 10000 Hz", "error of what is felt: rms ", "energy: ", "log: second_order_maxwell_run.csv"]:
+        for words in ["10001 samples at 10000 Hz", "error of what is felt: rms ", "energy: ",
+                      "log: second_order_maxwell_run.csv"]:
             self.assertIn(words, done.stdout)
         first = (self.folder / "second_order_maxwell_run.csv").read_text()
         self.dashpot("run", FIG_5, "--device", PANTOGRAPH, "--motion", "motion.csv", "-o", "again.csv")
@@ -253,37 +273,45 @@ class Motion(CommandTest):
 
     def test_a_motion_beyond_what_the_network_is_valid_for(self):
         """Fails if run is silent where simulate warns."""
-        net = self.write("valid.json", network('{ "spring": 30 }', "valid", '"valid": { "displacement": ["0 mm", "1 mm"], "rate": ["0 m/s", "1 mm/s"] },'))
+        net = self.write("valid.json", network('{ "spring": 30 }', "valid",
+                                               '"valid": { "displacement": ["0 mm", "1 mm"], "rate": ["0 m/s", "1 '
+                                               'mm/s"] },'))
         self.write("motion.csv", table(sine(2000)))
         played = self.dashpot("run", net, "--device", self.device(), "--motion", "motion.csv", "-o", "felt.csv").stderr
         simulated = self.dashpot("simulate", net, "--input", "motion.csv").stderr
         for said in [played, simulated]:
             self.assertEqual(said.count("[outside-valid-range]"), 2)
-        self.assertEqual(re.findall("warning: (.*) .outside-valid-range", played), re.findall("warning: (.*) .outside-valid-range", simulated))
+        self.assertEqual(re.findall("warning: (.*) .outside-valid-range", played),
+                         re.findall("warning: (.*) .outside-valid-range", simulated))
 
     def test_refusals(self):
-        """Fails if a command line that means nothing is taken, a bad recording played, or a motion out of reach not warned of."""
+        """Fails if a command line that means nothing is taken, a bad recording played, or a motion out of reach not
+        warned of."""
         self.write("motion.csv", table(sine(250)))
         net = self.write("kelvin.json", KELVIN)
         run = ["run", net, "--device", self.device()]
         for more in (["--hand", "firm"], ["--for", "1"], ["--port", "pty:"]):
             self.refused(*run, "--motion", "motion.csv", *more, code="not-with-motion", status=COMMAND_LINE_WRONG)
         self.refused(*run, "--json", code="motion-only", status=COMMAND_LINE_WRONG)
-        self.refused(*run, "--motion", "motion.csv", "-o", "motion.csv", code="would-overwrite-input", status=COMMAND_LINE_WRONG)
+        self.refused(*run, "--motion", "motion.csv", "-o", "motion.csv", code="would-overwrite-input",
+                     status=COMMAND_LINE_WRONG)
         self.write("bad.csv", "time,position\n0,0\n0.1,a\n")
         self.dashpot(*run, "--motion", "bad.csv", status=INPUT_REFUSED)
         self.dashpot(*run, "--motion", "absent.csv", status=INPUT_REFUSED)
         short = self.device(encoder={"range": ["-1 mm", "1 mm"]})
-        self.assertIn("[motion-beyond-encoder]", self.dashpot("run", net, "--device", short, "--motion", "motion.csv").stderr)
+        self.assertIn("[motion-beyond-encoder]",
+                      self.dashpot("run", net, "--device", short, "--motion", "motion.csv").stderr)
 
     def test_simulate_is_the_law_alone(self):
         """Fails if simulate lets one think that its numbers are what is felt on the device."""
         self.write("motion.csv", table(sine(2000)))
         net = self.write("kelvin.json", KELVIN)
-        self.assertIn("'dashpot run --motion' shows what is felt", self.dashpot("simulate", net, "--device", self.device(), "--input", "motion.csv").stderr)
+        self.assertIn("'dashpot run --motion' shows what is felt",
+                      self.dashpot("simulate", net, "--device", self.device(), "--input", "motion.csv").stderr)
         self.assertEqual(self.dashpot("simulate", net, "--input", "motion.csv").stderr, "")
         self.write("slow.csv", table(sine(250)))
-        told = self.refused("simulate", net, "--device", self.device(), "--input", "slow.csv", code="csv-rate-contradicts", status=COMMAND_LINE_WRONG)
+        told = self.refused("simulate", net, "--device", self.device(), "--input", "slow.csv",
+                            code="csv-rate-contradicts", status=COMMAND_LINE_WRONG)
         self.assertIn("'dashpot run --motion' plays a recording of any rate", told.stderr)
 
 

@@ -9,7 +9,8 @@ import unittest
 from dashpot_command import INPUT_REFUSED, SOURCE, CommandTest
 
 PAD = SOURCE / "networks/static/finger_pad.json"
-RIG = {"dashpot_device": 1, "name": "rig", "motion": "translation", "loop": {"rate": "5 kHz", "band": ["0.1 Hz", "20 Hz"]},
+RIG = {"dashpot_device": 1, "name": "rig", "motion": "translation",
+       "loop": {"rate": "5 kHz", "band": ["0.1 Hz", "20 Hz"]},
        "encoder": {"resolution": "1 um", "range": ["-6 mm", "6 mm"], "max_speed": "0.2 m/s"},
        "velocity": {"estimator": "backward_difference", "window": 4}, "motor": {"max_torque": "10 N"},
        "brake": {"kind": "eddy_current", "max_damping": "10 N s/m", "tolerance": "10 %"},
@@ -52,13 +53,15 @@ class PortsTest(CommandTest):
             sums = [x + y for x, y in zip(sums, self.forces("alone.json"))]
         largest = max(map(abs, all_forces))
         self.assertGreater(largest, 1)
-        self.assertLess(max(abs(x - y) for x, y in zip(all_forces, sums)), 1e-12 * largest)  # the estimate has the rounding of a slope
+        # the estimate has the rounding of a slope
+        self.assertLess(max(abs(x - y) for x, y in zip(all_forces, sums)), 1e-12 * largest)
 
     # If this fails, friction in newtons is scaled by the curve of another port, or the curve is not met at rest.
     def test_friction_keeps_its_newtons(self):
         rows = ["time,position"] + [f"{i / 1000},{min(i, 400) * 1e-5}" for i in range(20000)]
         self.write("motion.csv", "\n".join(rows) + "\n")
-        network = self.network({"name": "pad", "static": {"power": 2, "force": "1 N", "at": "4 mm"}, "network": {"spring": "100 N/m"}},
+        network = self.network({"name": "pad", "static": {"power": 2, "force": "1 N", "at": "4 mm"},
+                                "network": {"spring": "100 N/m"}},
                                {"name": "guide", "network": {"series": [{"spring": "5 kN/m"}, {"slip": "0.25 N"}]}})
         self.assertAlmostEqual(self.forces(network)[-1], 1.25, delta=5e-4)  # of 1 N a curve is off by up to 0.05 %
 
@@ -83,17 +86,21 @@ class PortsTest(CommandTest):
         self.dashpot("verify", "mixed.cert.json", "mixed.hpp", "--allow-uncertified")
 
     def test_a_surface_at_zero_is_verified(self):
-        network = self.network({"name": "a", "network": KELVIN, "contact": {"at": "0 mm"}}, {"name": "b", "network": {"spring": "300 N/m"}})
+        network = self.network({"name": "a", "network": KELVIN, "contact": {"at": "0 mm"}},
+                               {"name": "b", "network": {"spring": "300 N/m"}})
         for options in [[], ["--device", "rig.json"]]:
             self.dashpot("compile", network, *options, "--certificate", "law.json")
-            self.assertIn("recomputed in 100 digits", self.dashpot("verify", "law.json", "both.hpp", "--allow-uncertified").stdout)
-        self.write("motion.csv", "time,position\n" + "".join(f"{k / 5000},{min(k, 200) * 1e-5}\n" for k in range(30000)))
+            self.assertIn("recomputed in 100 digits",
+                          self.dashpot("verify", "law.json", "both.hpp", "--allow-uncertified").stdout)
+        self.write("motion.csv", "time,position\n" +
+                   "".join(f"{k / 5000},{min(k, 200) * 1e-5}\n" for k in range(30000)))
         self.assertAlmostEqual(self.forces(network)[-1], 2e-3 * 700, delta=1e-9)  # all but rest of what relaxed
 
     # If this fails, a wrong constant of some port, or of the sum, passes.
     def test_every_constant_is_recomputed(self):
         self.dashpot("compile", PAD, "--certificate", "law.json")
-        header, certificate = (self.folder / "finger_pad.hpp").read_text(), json.loads((self.folder / "law.json").read_text())
+        header, certificate = (self.folder / "finger_pad.hpp").read_text(), json.loads(
+            (self.folder / "law.json").read_text())
         changed = 0
         for name, values in list(certificate["constants"].items())[::4]:  # each takes a whole compilation
             if name in ("literals in code", "added_damping", "sample_period") or not re.search(rf"\b{name}\b", header):
@@ -120,35 +127,45 @@ class PortsTest(CommandTest):
     # If this fails, `verify` gives the constants of a port to another whose name begins alike.
     def test_names_that_begin_alike(self):
         def solid(of):
-            return {"parallel": [{"spring": "400 N/m", "name": f"{of}K0"}, {"series": [{"spring": "200 N/m", "name": f"{of}K1"},
-                                                                                   {"damper": "20 N s/m", "name": f"{of}B1"}]}]}
+            return {"parallel": [{"spring": "400 N/m", "name": f"{of}K0"},
+                                 {"series": [{"spring": "200 N/m", "name": f"{of}K1"},
+                                                                                   {"damper": "20 N s/m",
+                                                                                    "name": f"{of}B1"}]}]}
         network = self.network({"name": "a", "network": solid("b_")}, {"name": "a_b", "network": solid("")})
         self.dashpot("compile", network, "--certificate", "law.json")
-        self.assertIn("recomputed in 100 digits", self.dashpot("verify", "law.json", "both.hpp", "--allow-uncertified").stdout)
+        self.assertIn("recomputed in 100 digits",
+                      self.dashpot("verify", "law.json", "both.hpp", "--allow-uncertified").stdout)
 
     # If this fails, --set changes an element of another port than the one that is meant, or more than one.
     def test_set_reaches_the_port_that_is_named(self):
         network = self.network({"name": "rub", "network": {"damper": "1 N s/m", "name": "mu"}},
-                               {"name": "rest", "network": {"parallel": [{"damper": "2 N s/m", "name": "mu"}, {"damper": "C", "name": "own"}]}},
+                               {"name": "rest",
+                                "network": {"parallel": [{"damper": "2 N s/m", "name": "mu"},
+                                                         {"damper": "C", "name": "own"}]}},
                                parameters={"C": "4 N s/m"})
 
         def damping(*settings):
-            return json.loads(self.dashpot("explain", network, "--json", *[f"--set={each}" for each in settings]).stdout)["damping"]
-        for settings, sum_of in [([], 7), (["rub.mu=5"], 11), (["rest.mu=5"], 10), (["own=5"], 8), (["rest.own=5"], 8), (["C=5"], 8),
+            return json.loads(self.dashpot("explain", network, "--json",
+                                           *[f"--set={each}" for each in settings]).stdout)["damping"]
+        for settings, sum_of in [([], 7), (["rub.mu=5"], 11), (["rest.mu=5"], 10), (["own=5"], 8), (["rest.own=5"], 8),
+                                 (["C=5"], 8),
                                  (["rub.mu=5", "rest.mu=6"], 15)]:
             with self.subTest(settings):
                 self.assertAlmostEqual(damping(*settings), sum_of, delta=1e-12)
         told = self.refused("explain", network, "--set", "mu=5", code="set-ambiguous").stderr
         self.assertIn("one of rub.mu, rest.mu is expected", told)
-        self.assertIn("'rub.mu' is the nearest name", self.refused("explain", network, "--set", "rub.nu=5", code="set-unknown-name").stderr)
+        self.assertIn("'rub.mu' is the nearest name",
+                      self.refused("explain", network, "--set", "rub.nu=5", code="set-unknown-name").stderr)
 
     # If this fails, the checker by itself takes several ports for a law that it knows.
     def test_the_checker_says_what_it_does_not_know(self):
         network = self.network({"name": "a", "network": KELVIN}, {"name": "b", "network": {"spring": "50 N/m"}})
         self.dashpot("compile", network, "--certificate", "law.json")
-        checked = subprocess.run([os.environ["DASHPOT_CHECK"], self.folder / "both.hpp", self.folder / "law.json"], capture_output=True, text=True)
+        checked = subprocess.run([os.environ["DASHPOT_CHECK"], self.folder / "both.hpp", self.folder / "law.json"],
+                                 capture_output=True, text=True)
         self.assertEqual(checked.returncode, 3)
-        self.assertIn("nothing is known of slips, contacts, curves, tunables, several ports", checked.stdout + checked.stderr)
+        self.assertIn("nothing is known of slips, contacts, curves, tunables, several ports", checked.stdout +
+                      checked.stderr)
 
     # If this fails, explain does not tell each port, its share, and the sum.
     def test_explain_tells_every_port(self):
@@ -191,7 +208,8 @@ class PortsTest(CommandTest):
 
     # If this fails, a network that lacks damping is refused without a remedy.
     def test_too_little_damping_is_refused(self):
-        weak = {**RIG, "mechanics": {"inertia": "0.1 kg", "damping": "0.01 N s/m"}, "brake": {**RIG["brake"], "max_damping": "0.01 N s/m"}}
+        weak = {**RIG, "mechanics": {"inertia": "0.1 kg", "damping": "0.01 N s/m"},
+                "brake": {**RIG["brake"], "max_damping": "0.01 N s/m"}}
         self.write("weak.json", json.dumps(weak))
         network = self.network({"name": "one", "network": KELVIN}, {"name": "two", "network": {"spring": "3 kN/m"}})
         refused = self.dashpot("compile", network, "--device", "weak.json", status=INPUT_REFUSED).stderr
@@ -203,24 +221,34 @@ class PortsTest(CommandTest):
     # If this fails, a key that makes no sense beside ports is ignored.
     def test_what_is_refused(self):
         port = {"name": "one", "network": KELVIN}
-        for network, code in [(side_by_side(port, network=KELVIN), "beside-ports"), (side_by_side(port, contact={"at": 0}), "beside-ports"),
-                              (side_by_side(), "no-ports"), (side_by_side({**port, "map": {"along": [1, 0]}}), "ports-without-axes"),
-                              (side_by_side(port, port), "name-taken"), (side_by_side({"network": KELVIN}), "missing-key"),
-                              (side_by_side({**port, "valid": {"rate": 1}}), "unknown-key"), (side_by_side("one"), "wrong-type"),
-                              (side_by_side({**port, "network": {"spring": "K"}}, parameters={"K": {"value": "4 N/m", "tunable": True, "min": "1 N/m", "max": "9 N/m"}}),
+        for network, code in [(side_by_side(port, network=KELVIN), "beside-ports"),
+                              (side_by_side(port, contact={"at": 0}), "beside-ports"),
+                              (side_by_side(), "no-ports"), (side_by_side({**port, "map": {"along": [1, 0]}}),
+                                                             "ports-without-axes"),
+                              (side_by_side(port, port), "name-taken"),
+                              (side_by_side({"network": KELVIN}), "missing-key"),
+                              (side_by_side({**port, "valid": {"rate": 1}}), "unknown-key"),
+                              (side_by_side("one"), "wrong-type"),
+                              (side_by_side({**port, "network": {"spring": "K"}},
+                                            parameters={"K": {"value": "4 N/m", "tunable": True, "min": "1 N/m",
+                                                              "max": "9 N/m"}}),
                                "tunable-with-ports")]:
             with self.subTest(code):
                 self.write("bad.json", json.dumps(network))
                 self.assertIn(f"[{code}]", self.dashpot("check", "bad.json", status=INPUT_REFUSED).stderr)
         self.write("good.json", json.dumps(side_by_side(port)))
         self.refused("compile", "good.json", "--decomposition", "3", code="damping-for-ports")
-        self.assertIn("each port has a name", self.refused("check", self.network({"network": KELVIN}), code="missing-key").stderr)
-        self.assertIn("several ports", self.dashpot("export", "--to", "generic", "good.json", status=INPUT_REFUSED).stderr)
-        self.assertIn("several ports", self.dashpot("explain", "good.json", "--as", "kelvin", status=INPUT_REFUSED).stderr)
+        self.assertIn("each port has a name", self.refused("check", self.network({"network": KELVIN}),
+                                                           code="missing-key").stderr)
+        self.assertIn("several ports", self.dashpot("export", "--to", "generic", "good.json",
+                                                    status=INPUT_REFUSED).stderr)
+        self.assertIn("several ports", self.dashpot("explain", "good.json", "--as", "kelvin",
+                                                    status=INPUT_REFUSED).stderr)
 
     # If this fails, an error in the parameters of all ports is reported once for each of them.
     def test_shared_mistakes_are_told_once(self):
-        self.network({"name": "one", "network": {"spring": "K"}}, {"name": "two", "network": {"spring": "K"}}, parameters={"K": "4 kg"},
+        self.network({"name": "one", "network": {"spring": "K"}}, {"name": "two", "network": {"spring": "K"}},
+                     parameters={"K": "4 kg"},
                      valid={"rate": "1 N"})
         told = self.dashpot("check", "both.json", status=INPUT_REFUSED).stderr
         self.assertEqual(told.count("error:"), len(set(line for line in told.splitlines() if "error:" in line)))

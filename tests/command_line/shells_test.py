@@ -9,7 +9,8 @@ import unittest
 
 from dashpot_command import COMMAND_LINE_WRONG, CommandTest
 
-COMMANDS = ["check", "compile", "completion", "device", "explain", "export", "fit", "import", "manual", "report", "run", "simulate",
+COMMANDS = ["check", "compile", "completion", "device", "explain", "export", "fit", "import", "manual", "report", "run",
+            "simulate",
             "verify"]
 
 
@@ -23,9 +24,11 @@ class Completion(CommandTest):
 
     def in_bash(self, line):
         words = line.split(" ")
-        script = f'. ./dashpot.bash; COMP_WORDS=({" ".join(repr(word) for word in words)}); COMP_CWORD={len(words) - 1}; _dashpot; ' \
+        quoted = " ".join(repr(word) for word in words)
+        script = f'. ./dashpot.bash; COMP_WORDS=({quoted}); COMP_CWORD={len(words) - 1}; _dashpot; ' \
                  'printf "%s\\n" "${COMPREPLY[@]}"'
-        done = subprocess.run(["bash", "--norc", "-c", script], cwd=self.folder, capture_output=True, text=True, check=True)
+        done = subprocess.run(["bash", "--norc", "-c", script], cwd=self.folder, capture_output=True, text=True,
+                              check=True)
         self.assertEqual(done.stderr, "")
         return sorted(done.stdout.split())
 
@@ -33,7 +36,8 @@ class Completion(CommandTest):
         script = f"source dashpot.fish; complete -C {line!r}"
         home = str(self.folder / ".home")
         environment = {**os.environ, "HOME": home, "XDG_CONFIG_HOME": home}
-        done = subprocess.run(["fish", "--no-config", "-c", script], cwd=self.folder, capture_output=True, text=True, check=True,
+        done = subprocess.run(["fish", "--no-config", "-c", script], cwd=self.folder, capture_output=True, text=True,
+                              check=True,
                               env=environment)
         self.assertEqual(done.stderr, "")
         return sorted(answer.split("\t")[0] for answer in done.stdout.splitlines())
@@ -43,7 +47,8 @@ class Completion(CommandTest):
         child, terminal = pty.fork()
         if child == 0:
             os.chdir(self.folder)
-            os.execvpe("zsh", ["zsh", "-f", "-i"], {**os.environ, "TERM": "dumb", "HOME": str(self.folder), "PS1": "> "})
+            os.execvpe("zsh", ["zsh", "-f", "-i"], {**os.environ, "TERM": "dumb", "HOME": str(self.folder),
+                                                    "PS1": "> "})
         said = ""
 
         def read(until):
@@ -109,14 +114,16 @@ class Completion(CommandTest):
 
     def test_wrong(self):
         """Fails if a shell that is not known gets a script."""
-        self.assertIn("tcsh not in {bash,zsh,fish}", self.dashpot("completion", "tcsh", status=COMMAND_LINE_WRONG).stderr)
+        self.assertIn("tcsh not in {bash,zsh,fish}",
+                      self.dashpot("completion", "tcsh", status=COMMAND_LINE_WRONG).stderr)
 
 
 class Manual(CommandTest):
     def shown(self, *command):
         page = self.write("page.1", self.dashpot("manual", *command).stdout)
         environment = {**os.environ, "MANWIDTH": "1000", "LC_ALL": "C.UTF-8"}
-        done = subprocess.run(["groff", "-man", "-Tutf8", "-rLL=1000n", "-Kutf8", "-ww", "-P-cbou", str(page)], capture_output=True,
+        done = subprocess.run(["groff", "-man", "-Tutf8", "-rLL=1000n", "-Kutf8", "-ww", "-P-cbou", str(page)],
+                              capture_output=True,
                               text=True, env=environment, check=True)
         self.assertEqual(done.stderr, "")
         return re.sub(r"\s+", " ", done.stdout.replace("\u2010", "-").replace("\u2212", "-"))

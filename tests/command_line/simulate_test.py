@@ -6,7 +6,8 @@ import re
 import struct
 import unittest
 
-from dashpot_command import (COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH, SOURCE, CommandTest, codes,
+from dashpot_command import (COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH, SOURCE, CommandTest,
+                             codes,
                              network)
 
 COLUMNS = "time,position,velocity,force,damping,motor_force"
@@ -141,7 +142,8 @@ class Rate(SimulateTest):
         self.assertAlmostEqual(answer, 5 * (1 - math.exp(-10 * 2999 / 3000)), delta=1e-11)
 
     def test_times_in_microseconds(self):
-        """Fails if times at 3 kHz, written in whole microseconds, are refused, or the law runs at another rate than they mean."""
+        """Fails if times at 3 kHz, written in whole microseconds, are refused, or the law runs at another rate than
+        they mean."""
         answer = 5 * (1 - math.exp(-10 * 2999 / 3000))
         for written in ["{:.6f}", "{:.6e}", "{:.5e}", "{:.7g}"]:
             rows = [(written.format(n / 3000), f"{n / 3000:.17g}") for n in range(3000)]
@@ -152,19 +154,24 @@ class Rate(SimulateTest):
         self.assertEqual(len(self.simulated("maxwell.json", table(cut), "--rate", "44100")), 4410)
 
     def test_rounding_hides_nothing_else(self):
-        """Fails if a missing row, a rate that changes, or a time that is off by more than its rounding passes for rounded times."""
+        """Fails if a missing row, a rate that changes, or a time that is off by more than its rounding passes for
+        rounded times."""
         micro = [round(n * 1e6 / 3000) for n in range(300)]
 
         def refusal(times, code="csv-not-uniform"):
             return self.refuses(table([(f"{time / 1e6:.6f}", 0) for time in times]), code).stderr
 
         told = refusal(micro[:200] + micro[201:])
-        self.assertTrue(told.startswith("motion.csv:202:1: error: row follows after 0.000667 s; a uniform period of 0.000333 s"), told)
+        self.assertTrue(told.startswith("motion.csv:202:1: error: row follows after 0.000667 s; a uniform period of "
+                                        "0.000333 s"), told)
         self.assertIn("times whose last digit, 1e-06 s here, is at most 0.1 of them", told)
         refusal([time + 4 * (n == 150) for n, time in enumerate(micro)])
-        self.refuses(table([(f"{(time + 4 * (n == 150)) / 1e6:.5e}", 0) for n, time in enumerate(micro)]), "csv-not-uniform")
+        self.refuses(table([(f"{(time + 4 * (n == 150)) / 1e6:.5e}", 0) for n, time in enumerate(micro)]),
+                     "csv-not-uniform")
         told = refusal([333 * n + max(0, n - 150) for n in range(300)], "csv-drifts")
-        self.assertRegex(told, r"motion\.csv:\d+:1: error: row is at 0\.\d+ s; rows at a uniform period of 0\.000333\d* s have it at 0\.")
+        self.assertRegex(told,
+                         r"motion\.csv:\d+:1: error: row is at 0\.\d+ s; rows at a uniform period of 0\.000333\d* s "
+                         r"have it at 0\.")
         told = self.refuses(table([(f"{n / 300:.3f}", 0) for n in range(30)]), "csv-not-uniform").stderr
         self.assertIn("last digit, 0.001 s here", told)
 
@@ -204,8 +211,8 @@ class Table(SimulateTest):
             self.assertEqual(self.simulated("kelvin.json", variant), plain, repr(variant[:40]))
 
     def test_units_names_and_separators(self):
-        """Fails if a recording in other units, under other names, with other separators or with lines in front gives other forces, or if a unit
-        that does not fit is taken."""
+        """Fails if a recording in other units, under other names, with other separators or with lines in front gives
+        other forces, or if a unit that does not fit is taken."""
         rows = [(n, (7 * n) % 40) for n in range(60)]  # [ms], [mm]
         plain = self.simulated("kelvin.json", table([(f"{t / 1000:.3f}", repr(u * 1e-3)) for t, u in rows]))
         lines = {"time [ms],position [mm]": ",", "t [ms];x_mm": ";", "elapsed time/ms\tdepth (mm)": "\t",
@@ -218,13 +225,15 @@ class Table(SimulateTest):
                 self.assertEqual([row["force"] for row in found], [row["force"] for row in plain], header)
         found = self.simulated("kelvin.json", "time;position\nms;mm\n" + "".join(f"{t},0;{u},0\n" for t, u in rows))
         self.assertEqual([row["force"] for row in found], [row["force"] for row in plain])
-        slow = self.simulated("kelvin.json", table([(n, 0, 60) for n in range(3)], "time [ms],position [mm],velocity [mm/min]"))
+        slow = self.simulated("kelvin.json",
+                              table([(n, 0, 60) for n in range(3)], "time [ms],position [mm],velocity [mm/min]"))
         self.assertEqual(slow[0]["velocity"], 60 * (1 / 60000))
         self.refuses(table([(0, "1e308")], "time,position [Tm]"), "number-too-large")
         self.refuses(table([(0, 0)], "time,position [N]"), "recording-wrong-unit")
         self.refuses(table([(0, 0)], "time [mm],position"), "recording-wrong-unit")
         told = self.refuses(table([(0, 0), (0.001, 1)], "time,position [deg]"), "csv-other-motion").stderr
-        self.assertTrue(told.startswith("motion.csv:1:6: error: the motion is in radians; the network's tool moves in metres"), told)
+        self.assertTrue(told.startswith(
+            "motion.csv:1:6: error: the motion is in radians; the network's tool moves in metres"), told)
 
     def test_a_unit_that_is_left_out(self):
         """Fails if millimetres beside milliseconds are taken for metres without a word, or a table without units is
@@ -259,7 +268,8 @@ class Table(SimulateTest):
 
     def test_lines_that_end_as_on_old_machines(self):
         """Fails if carriage returns alone do not end lines."""
-        self.assertEqual(self.simulated("kelvin.json", table(ramp(5)).replace("\n", "\r")), self.simulated("kelvin.json", table(ramp(5))))
+        self.assertEqual(self.simulated("kelvin.json", table(ramp(5)).replace("\n", "\r")),
+                         self.simulated("kelvin.json", table(ramp(5))))
 
     def test_forces_beyond_all_numbers(self):
         """Fails if an infinite force is written as an answer."""
@@ -297,7 +307,8 @@ class Table(SimulateTest):
     def test_numbers_that_no_double_holds(self):
         """Fails if a number that is finite, and yet beyond a double, is taken for another, or reported as not
         finite."""
-        for cell, code in [("1e999", "number-too-large"), ("-1e999", "number-too-large"), ("1e-400", "number-too-small"), ("-1e-400", "number-too-small")]:
+        for cell, code in [("1e999", "number-too-large"), ("-1e999", "number-too-large"),
+                           ("1e-400", "number-too-small"), ("-1e-400", "number-too-small")]:
             told = self.refuses(f"time,position\n0,0\n0.001,{cell}\n", code).stderr
             self.assertTrue(told.startswith(f"motion.csv:3:7: error: '{cell}' is "), told)
             self.assertNotIn("finite", told)
@@ -305,7 +316,8 @@ class Table(SimulateTest):
 
     def test_numbers_with_a_plus_sign(self):
         """Fails if a motion may not write what a network may."""
-        self.assertEqual(self.simulated("kelvin.json", "time,position\n+0,+1\n+1e-3,+.5e+0\n"), self.simulated("kelvin.json", "time,position\n0,1\n1e-3,.5\n"))
+        self.assertEqual(self.simulated("kelvin.json", "time,position\n+0,+1\n+1e-3,+.5e+0\n"),
+                         self.simulated("kelvin.json", "time,position\n0,1\n1e-3,.5\n"))
 
     def test_periods_that_differ(self):
         """Fails if a gap is taken for a uniform period."""
@@ -316,10 +328,12 @@ class Table(SimulateTest):
     def test_times_that_do_not_rise(self):
         """Fails if time that falls or stands still passes, is not reported as that, or more digits are asked for where
         none would help."""
-        for rows, line, found, before in [([0.002, 0.001, 0], 3, "0.001", "0.002"), ([0, 0.001, 0.0005, 0.002], 4, "0.0005", "0.001"),
+        for rows, line, found, before in [([0.002, 0.001, 0], 3, "0.001", "0.002"),
+                                          ([0, 0.001, 0.0005, 0.002], 4, "0.0005", "0.001"),
                                           ([0, 0.001, 0.005, 0.004], 5, "0.004", "0.005")]:
             told = self.refuses(table([(time, 0) for time in rows]), "csv-time-not-rising").stderr
-            self.assertTrue(told.startswith(f"motion.csv:{line}:1: error: row is at {found} s, the one before at {before} s; times that rise"), told)
+            self.assertTrue(told.startswith(f"motion.csv:{line}:1: error: row is at {found} s, the one before at "
+                                            f"{before} s; times that rise"), told)
             self.assertNotIn("digits", told)
         self.refuses("time,position\n0,0\n0,0\n0,0\n", "csv-time-not-rising")
         told = self.refuses(table([(f"{n / 3000:.3f}", 0) for n in range(30)]), "csv-time-not-rising").stderr
@@ -346,17 +360,21 @@ class Tunables(SimulateTest):
         self.write("tuned.json", self.NETWORK)
 
     def test_columns_give_values(self):
-        """Fails if a column that is called like a tunable does not set it from that row on, or the brake does not follow."""
-        rows = self.simulated("tuned.json", table([(0, 0, 100, 2), (0.001, 0, 100, 5), (0.002, 0.01, 200, 5), (0.003, 0.02, 200, 1)],
-                                                  "time,position,K,B"))
+        """Fails if a column that is called like a tunable does not set it from that row on, or the brake does not
+        follow."""
+        rows = self.simulated("tuned.json",
+                              table([(0, 0, 100, 2), (0.001, 0, 100, 5), (0.002, 0.01, 200, 5), (0.003, 0.02, 200, 1)],
+                                    "time,position,K,B"))
         self.assertEqual([row["damping"] for row in rows], [2, 5, 5, 1])
         for row, force in zip(rows, [0, 0, 2, 4]):
             self.assertAlmostEqual(row["motor_force"], force, delta=1e-15)
 
     def test_columns_have_units(self):
-        """Fails if the unit of a tunable's column is not heeded, beside its name or below it, or one of anything else is read."""
+        """Fails if the unit of a tunable's column is not heeded, beside its name or below it, or one of anything else
+        is read."""
         motion, expected = [(0, 0, 0.1), (0.001, 0, 0.1), (0.002, 0.01, 0.2)], [0, 0, 2]
-        for header in ["time,position,K [N/mm]", "time,position,K (N/mm)", "time,position,K_N/mm", "time,position,K\ns,m,N/mm",
+        for header in ["time,position,K [N/mm]", "time,position,K (N/mm)", "time,position,K_N/mm",
+                       "time,position,K\ns,m,N/mm",
                        "time,position,K\n(sec),(m),(N/mm)"]:
             rows = self.simulated("tuned.json", table(motion, header))
             for row, force in zip(rows, expected, strict=True):
@@ -379,7 +397,9 @@ class Tunables(SimulateTest):
         """Fails if an element that is called like one of the law's own numbers takes its place."""
         def pushed(name):
             damper = f'{{ "damper": 2, "name": "{name}" }}'
-            self.write("pushed.json", self.NETWORK.replace('{ "damper": "B" }', damper).replace('"network":', '"contact": { "at": 0.002 }, "network":'))
+            self.write("pushed.json", self.NETWORK.replace('{ "damper": "B" }',
+                                                           damper).replace('"network":',
+                                                                           '"contact": { "at": 0.002 }, "network":'))
             return self.simulated("pushed.json", table([(0.001 * i, 0.01 * math.sin(0.1 * i)) for i in range(80)]))
 
         plain = pushed("skin")
@@ -401,16 +421,21 @@ class Tunables(SimulateTest):
     def test_a_slip_whose_yield_force_is_taken_away(self):
         """Fails if a yield force may not be tuned down to zero, or there holds anything but the share of its greatest
         that is stated."""
-        text = self.NETWORK.replace('{ "damper": "B" }', '{ "series": [ { "slip": "B" }, { "spring": 1000 } ] }').replace('{ "spring": "K" }, ', "")
+        text = self.NETWORK.replace('{ "damper": "B" }',
+                                    '{ "series": [ { "slip": "B" }, { "spring": 1000 } ] }').replace(
+                                        '{ "spring": "K" }, ', "")
         self.write("friction.json", text)
         for scalar, share in [("double", 2**-24), ("float", 2**-10)]:
-            rows = self.simulated("friction.json", table([(n / 1000, n / 1000, 0) for n in range(20)], "time,position,B"), "--scalar", scalar)
+            rows = self.simulated("friction.json", table([(n / 1000, n / 1000, 0) for n in range(20)],
+                                                         "time,position,B"), "--scalar", scalar)
             self.assertEqual(rows[-1]["force"], 5 * share)
-        self.write("never.json", text.replace('"min": 0, "max": 5', '"min": 0, "max": 0').replace('"value": 2', '"value": 0'))
+        self.write("never.json", text.replace('"min": 0, "max": 5',
+                                              '"min": 0, "max": 0').replace('"value": 2', '"value": 0'))
         self.refused("check", "never.json", code="zero-yield")
 
     def test_cells_that_are_no_numbers(self):
-        """Fails if a value that is no finite number reaches the law, or the column of another network is asked for numbers."""
+        """Fails if a value that is no finite number reaches the law, or the column of another network is asked for
+        numbers."""
         for cell in ["stiff", "", "nan", "inf"]:
             self.write("motion.csv", table([(0, 0, cell)], "time,position,K"))
             self.refused("simulate", "tuned.json", "--input", "motion.csv", code="csv-not-a-number")
@@ -434,14 +459,16 @@ class Tunables(SimulateTest):
         self.write("tuned.json", self.NETWORK.replace('"K"', '"time"'))
         self.write("motion.csv", table(ramp(3)))
         told = self.refused("simulate", "tuned.json", "--input", "motion.csv", code="tunable-named-as-column").stderr
-        self.assertTrue(told.startswith("tuned.json:2:15: error: tunable 'time' is called like a column of the motion itself"), told)
+        self.assertTrue(told.startswith(
+            "tuned.json:2:15: error: tunable 'time' is called like a column of the motion itself"), told)
         self.dashpot("compile", "tuned.json")
 
     def test_behind_a_contact(self):
         """Fails if a wall whose stiffness is a slider pulls the tool back, or is felt before it is reached."""
         self.write("wall.json", self.NETWORK.replace('"network"', '"contact": { "at": 0 }, "network"'))
         rows = self.simulated("wall.json", table([(0.001 * n, position, 400 if n % 2 else 10, 2) for n, position in
-                                                  enumerate([-0.02, -0.01, 0.01, 0.02, 0.01, 0, -0.01])], "time,position,K,B"))
+                                                  enumerate([-0.02, -0.01, 0.01, 0.02, 0.01, 0, -0.01])],
+                                                 "time,position,K,B"))
         self.assertEqual([row["force"] for row in rows[:2]], [0, 0])
         self.assertGreater(min(row["force"] for row in rows[2:4]), 0)
         self.assertEqual(min(row["force"] for row in rows), 0)
@@ -451,7 +478,8 @@ class Tunables(SimulateTest):
 class Validity(SimulateTest):
     def test_leaving_the_valid_range_is_said_once(self):
         """Fails if a motion beyond what the tissue was measured for is not reported, or is said in every row."""
-        self.write("valid.json", network('{ "spring": 3 }', more='"valid": { "displacement": "5 mm", "rate": "0.5 m/s" },'))
+        self.write("valid.json",
+                   network('{ "spring": 3 }', more='"valid": { "displacement": "5 mm", "rate": "0.5 m/s" },'))
         self.write("motion.csv", table(ramp(50)))
         done = self.dashpot("simulate", "valid.json", "--input", "motion.csv")
         self.assertEqual(codes(done.stderr), ["outside-valid-range"] * 2)
@@ -464,7 +492,8 @@ class Validity(SimulateTest):
         self.write("motion.csv", table([(0, 0), (0.001, 0.001), (0.002, 0.001)]))
         self.assertEqual(self.dashpot("simulate", "valid.json", "--input", "motion.csv").stderr, "")
         self.write("motion.csv", table([(0, 0), (0.001, 0.003), (0.002, 0.003)]))
-        self.assertIn("rate is 3 m/s at 0.001 s", self.dashpot("simulate", "valid.json", "--input", "motion.csv").stderr)
+        self.assertIn("rate is 3 m/s at 0.001 s",
+                      self.dashpot("simulate", "valid.json", "--input", "motion.csv").stderr)
 
 
 if __name__ == "__main__":

@@ -47,8 +47,9 @@ class Springpot(CommandTest):
         return [float(row["force"]) for row in csv.DictReader(io.StringIO(done.stdout))]
 
     def constant(self, stiffness):
-        text = NETWORK.read_text().replace('"K": { "value": "120 N/m", "tunable": true, "min": "0 N/m", "max": "400 N/m" }',
-                                           f'"K": "{stiffness} N/m"')
+        text = NETWORK.read_text().replace(
+            '"K": { "value": "120 N/m", "tunable": true, "min": "0 N/m", "max": "400 N/m" }',
+            f'"K": "{stiffness} N/m"')
         return self.write("constant.json", text)
 
     def test_is_the_springpot_of_its_value(self):
@@ -73,7 +74,8 @@ class Springpot(CommandTest):
         self.assertEqual([float(line) for line in printed.stdout.split()], forces)
 
     def test_certificate_is_verified(self):
-        """Fails if the shares of the parameter in the header are not what the checker works out, or one of them may be."""
+        """Fails if the shares of the parameter in the header are not what the checker works out, or one of them may
+        be."""
         self.dashpot("compile", NETWORK, "--rate", RATE, "-o", ".", "--certificate", "certificate.json")
         header = self.folder / "springpot_tunable.hpp"
         self.dashpot("verify", "certificate.json", header, "--allow-uncertified")

@@ -7,7 +7,8 @@ import unittest
 
 from dashpot_command import INPUT_REFUSED, SOURCE, CommandTest
 
-SPHERE, SKIN, LIGAMENT = (SOURCE / f"networks/static/{name}.json" for name in ["sphere_on_gel", "skin_in_contact", "ligament"])
+SPHERE, SKIN, LIGAMENT = (SOURCE / f"networks/static/{name}.json"
+                          for name in ["sphere_on_gel", "skin_in_contact", "ligament"])
 IS_LONG = os.environ.get("DASHPOT_LONG") == "1"
 TRAINER = SOURCE / "examples/breast_palpation/device.json"
 KNEE = SOURCE / "examples/knee_ligament/device.json"
@@ -24,7 +25,8 @@ class StaticCurvesTest(CommandTest):
         self.write("motion.csv", "\n".join(rows) + "\n")
         answer = self.dashpot("simulate", SKIN, "--input", "motion.csv").stdout.splitlines()
         force = float(answer[-1].split(",")[answer[0].split(",").index("force")])
-        self.assertAlmostEqual(force, 0.27, delta=1e-3)  # 3 mm beyond the surface, of a curve up to 1.47 N, met to 0.05 %
+        # 3 mm beyond the surface, of a curve up to 1.47 N, met to 0.05 %
+        self.assertAlmostEqual(force, 0.27, delta=1e-3)
 
     # If this fails, explain does not tell what is compiled.
     def test_explain_tells_curve_and_map(self):
@@ -37,7 +39,8 @@ class StaticCurvesTest(CommandTest):
         # w'^2 = f^2/(2 k E) is 5/4 c sqrt(u)/k of Hertz' curve.
         c = 4 / 3 * 50e3 / 0.75 * math.sqrt(0.01)
         self.assertAlmostEqual(told["largest_scale"], 1.25 * c * math.sqrt(0.006) / 400, places=6)
-        self.assertIsNone(json.loads(self.dashpot("explain", SOURCE / "networks/paper/kelvin.json", "--json").stdout)["static"])
+        self.assertIsNone(json.loads(self.dashpot("explain", SOURCE / "networks/paper/kelvin.json",
+                                                  "--json").stdout)["static"])
 
     def test_a_contact_lets_go_where_it_says(self):
         """Fails if the gap behind which a contact lets go is reported as it is behind the curve's map, and not as it is
@@ -45,7 +48,8 @@ class StaticCurvesTest(CommandTest):
         flat = {"dashpot": 1, "name": "flat", "network": {"spring": "100 N/m"}, "contact": {"at": "0 mm"}}
         hertz = {**flat, "name": "hertz", "static": {"power": 1.5, "force": "1 N", "at": "5 mm"}}
         gaps = []
-        for network, words in ((flat, "one step of the encoder"), (hertz, "as far behind the curve as one step of the encoder")):
+        for network, words in ((flat, "one step of the encoder"),
+                               (hertz, "as far behind the curve as one step of the encoder")):
             self.write("network.json", json.dumps(network))
             told = " ".join(self.dashpot("explain", "network.json", "--device", TRAINER).stdout.split())
             gaps.append(float(re.search(rf"from a gap of (\S+) m on, {words}", told)[1]))
@@ -56,7 +60,8 @@ class StaticCurvesTest(CommandTest):
 
     # If this fails, a law behind a curve is not certified where it was, or verify does not know it again.
     def test_certified_laws_are_verified(self):
-        for network, device, name in [(SKIN, TRAINER, "skin_in_contact"), (SPHERE, TRAINER, "sphere_on_gel"), (LIGAMENT, KNEE, "ligament")]:
+        for network, device, name in [(SKIN, TRAINER, "skin_in_contact"), (SPHERE, TRAINER, "sphere_on_gel"),
+                                      (LIGAMENT, KNEE, "ligament")]:
             with self.subTest(name):
                 self.dashpot("compile", network, "--device", device, "--certificate", "law.json", "--uncertified",
                              "--no-advice")
@@ -68,7 +73,8 @@ class StaticCurvesTest(CommandTest):
         self.dashpot("compile", SKIN, "--device", TRAINER, "--certificate", "law.json")
         self.assertTrue(json.loads((self.folder / "law.json").read_text())["passivity"]["certified"])
 
-    # If this fails, a law that cannot be certified ends in a defect, or in the advice to scale what the curve alone says.
+    # If this fails, a law that cannot be certified ends in a defect, or in the advice to scale what the curve alone
+    # says.
     def test_a_curve_that_needs_too_much_is_refused(self):
         self.write("cone.json", json.dumps(CONE))
         refused = self.dashpot("compile", "cone.json", "--device", PANTOGRAPH, status=INPUT_REFUSED).stderr
@@ -85,13 +91,15 @@ class StaticCurvesTest(CommandTest):
             for device in devices if IS_LONG else devices[:1]:
                 told = self.dashpot("explain", network, "--device", device, "--json")
                 for row in json.loads(told.stdout)["candidates"]:
-                    own = json.loads(self.dashpot("explain", network, "--device", device, "--json", "--decomposition", row["name"]).stdout)
+                    own = json.loads(self.dashpot("explain", network, "--device", device, "--json", "--decomposition",
+                                                  row["name"]).stdout)
                     chosen = next(c for c in own["candidates"] if c["name"] == row["name"])
                     with self.subTest(network=network, device=device, candidate=row["name"]):
                         if row["minimum_damping"] is None or chosen["minimum_damping"] is None:
                             self.assertEqual(row["minimum_damping"], chosen["minimum_damping"])
                         else:
-                            self.assertAlmostEqual(row["minimum_damping"], chosen["minimum_damping"], delta=1e-6 * (1 + row["minimum_damping"]))
+                            self.assertAlmostEqual(row["minimum_damping"], chosen["minimum_damping"],
+                                                   delta=1e-6 * (1 + row["minimum_damping"]))
 
     # If this fails, a wrong number in a table of the map passes.
     def test_every_table_is_recomputed(self):
@@ -99,7 +107,8 @@ class StaticCurvesTest(CommandTest):
         header, certificate = (self.folder / "skin_in_contact.hpp").read_text(), (self.folder / "law.json").read_text()
         for table in ["cell_begins", "map_a", "map_b", "map_c", "map_e"]:
             numbers = re.search(rf" {table}\[\d+\] = {{(.*?)}};", header, re.DOTALL).group(1)
-            place, number = next((i, n) for i, n in enumerate(re.split(r",\s+", numbers)) if i > 30 and abs(float(n)) > 1e-12)
+            place, number = next((i, n) for i, n in enumerate(re.split(r",\s+", numbers)) if i > 30
+                                 and abs(float(n)) > 1e-12)
             wrong = json.loads(certificate)
             wrong["constants"][table][place] = math.nextafter(float(number), math.inf)
             replaced = numbers.replace(number, repr(wrong["constants"][table][place]), 1)
@@ -133,7 +142,8 @@ class StaticCurvesTest(CommandTest):
         self.write("cone.json", json.dumps(CONE))
         self.write("at_once.json", json.dumps({**instantaneous, "name": "at_once"}))
         for network, name, device in [(SPHERE, "sphere_on_gel", TRAINER), (SKIN, "skin_in_contact", TRAINER),
-                                      (LIGAMENT, "ligament", KNEE), ("cone.json", "cone", None), ("at_once.json", "at_once", None)]:
+                                      (LIGAMENT, "ligament", KNEE), ("cone.json", "cone", None),
+                                      ("at_once.json", "at_once", None)]:
             on_device = ["--device", device, "--uncertified", "--no-advice"]
             for choices in [[], on_device if device else ["--scalar", "float"]]:
                 with self.subTest(network=name, choices=choices):
@@ -165,12 +175,16 @@ class StaticCurvesTest(CommandTest):
     def test_parameters_behind_a_curve(self):
         tunable = {**CONE, "name": "tunable_cone", "contact": {"at": "1 mm"},
                    "parameters": {"K": {"value": "300 N/m", "tunable": True, "min": "100 N/m", "max": "900 N/m"},
-                                  "tangent": {"value": "30 N s/m", "tunable": True, "min": "10 N s/m", "max": "90 N s/m"}},
-                   "network": {"parallel": [{"spring": "K"}, {"series": [{"spring": "200 N/m"}, {"damper": "tangent"}]}, {"damper": "1 N s/m"}]}}
+                                  "tangent": {"value": "30 N s/m", "tunable": True, "min": "10 N s/m",
+                                              "max": "90 N s/m"}},
+                   "network": {"parallel": [{"spring": "K"}, {"series": [{"spring": "200 N/m"}, {"damper": "tangent"}]},
+                                            {"damper": "1 N s/m"}]}}
         self.write("cone.json", json.dumps(tunable))
-        rows = ["time,position,K"] + [f"{i / 1000},{min(i, 300) * 1e-5},{300 if i < 6000 else 600}" for i in range(12000)]
+        rows = ["time,position,K"] + [f"{i / 1000},{min(i, 300) * 1e-5},{300 if i < 6000 else 600}"
+                                      for i in range(12000)]
         self.write("motion.csv", "\n".join(rows) + "\n")
-        answer = [row.split(",") for row in self.dashpot("simulate", "cone.json", "--input", "motion.csv").stdout.splitlines()]
+        answer = [row.split(",") for row in self.dashpot("simulate", "cone.json", "--input",
+                                                         "motion.csv").stdout.splitlines()]
         column = answer[0].index("force")
         self.assertAlmostEqual(float(answer[6000][column]), 0.16, delta=1e-3)  # (2/5)^2 N, 2 mm deep
         self.dashpot("run", "cone.json", "--device", TRAINER, "--for", "0.2", "--fast")
@@ -194,8 +208,8 @@ class StaticCurvesTest(CommandTest):
         self.dashpot("compile", "cone.json", "--target", "c99", "--with-test")
         self.assertIn("passed", self.run_in_c("tunable_cone"))
 
-    # If this fails, a command does not know that a law behind a curve is certified over the ranges of its parameters, or
-    # verify believes other numbers.
+    # If this fails, a command does not know that a law behind a curve is certified over the ranges of its parameters,
+    # or verify believes other numbers.
     def test_parameters_behind_a_curve_are_certified(self):
         tunable = {**CONE, "name": "tunable_cone",
                    "parameters": {"K": {"value": "300 N/m", "tunable": True, "min": "100 N/m", "max": "600 N/m"},
@@ -203,13 +217,15 @@ class StaticCurvesTest(CommandTest):
                    "network": {"parallel": [{"spring": "K"}, {"series": [{"spring": "200 N/m"}, {"damper": "B"}]}]}}
         self.write("cone.json", json.dumps(tunable))
         self.write("rig.json", json.dumps({
-            "dashpot_device": 1, "name": "rig", "motion": "translation", "loop": {"rate": "1 kHz", "band": ["0.1 Hz", "20 Hz"]},
+            "dashpot_device": 1, "name": "rig", "motion": "translation",
+            "loop": {"rate": "1 kHz", "band": ["0.1 Hz", "20 Hz"]},
             "encoder": {"resolution": "1 um", "range": ["-6 mm", "6 mm"], "max_speed": "50 mm/s"},
             "velocity": {"estimator": "backward_difference", "window": 4}, "motor": {"max_torque": "20 N"},
             "brake": {"kind": "eddy_current", "max_damping": "100 N s/m"}, "mechanics": {"inertia": "0.1 kg"}}))
         on_rig = ["cone.json", "--device", "rig.json"]
         explained = " ".join(self.dashpot("explain", *on_rig).stdout.split())
-        self.assertIn("passivity: certified for any motion, any values within their ranges and any changes of them", explained)
+        self.assertIn("passivity: certified for any motion, any values within their ranges and any changes of them",
+                      explained)
         self.assertNotIn("not certified", self.dashpot("check", *on_rig).stderr)
         for options in [[], ["--constant-time"]]:
             with self.subTest(options=options):
@@ -226,12 +242,15 @@ class StaticCurvesTest(CommandTest):
         self.dashpot("compile", *on_rig)
         self.dashpot("verify", "law.json", "tunable_cone.hpp", status=INPUT_REFUSED)
 
-    # If this fails, what a slip holds costs nothing where the curve bends: a tool that trembles there, pulled by it, would gain.
+    # If this fails, what a slip holds costs nothing where the curve bends: a tool that trembles there, pulled by it,
+    # would gain.
     def test_what_slips_hold_costs_damping_where_the_curve_bends(self):
         self.write("rig.json", json.dumps({
-            "dashpot_device": 1, "name": "rig", "motion": "translation", "loop": {"rate": "1 kHz", "band": ["0.1 Hz", "20 Hz"]},
+            "dashpot_device": 1, "name": "rig", "motion": "translation",
+            "loop": {"rate": "1 kHz", "band": ["0.1 Hz", "20 Hz"]},
             "encoder": {"resolution": "1 um", "range": ["-6 mm", "6 mm"], "max_speed": "50 mm/s"},
-            "velocity": {"estimator": "backward_difference", "window": 4}, "motor": {}, "mechanics": {"inertia": "0.1 kg", "damping": "900 N s/m"}}))
+            "velocity": {"estimator": "backward_difference", "window": 4}, "motor": {},
+            "mechanics": {"inertia": "0.1 kg", "damping": "900 N s/m"}}))
         needed = {}
         for holds in (1, 2, 4):
             self.write("curve.json", json.dumps({
@@ -241,7 +260,8 @@ class StaticCurvesTest(CommandTest):
                                            "--no-advice").stdout)
             self.assertTrue(told["certificate"]["certified"])
             needed[holds] = told["certificate"]["needed_damping"]
-        # w'' of w = sqrt(2 E/k) at 6 mm, by differences; what is held over a millisecond costs half of it for each newton.
+        # w'' of w = sqrt(2 E/k) at 6 mm, by differences; what is held over a millisecond costs half of it for each
+        # newton.
         bend = self.bend_of_exponential(1, 300, 6e-3, 200)
         for fewer, more in ((1, 2), (2, 4)):
             self.assertGreater(needed[more] - needed[fewer], 0.9 * (more - fewer) * bend / 2 * 1e-3)
@@ -282,7 +302,8 @@ class StaticCurvesTest(CommandTest):
     def test_what_takes_no_curve_says_so(self):
         self.refused("export", SKIN, "--to", "generic", code="not-exported")
         for form in ("kelvin", "maxwell", "prony"):
-            self.assertIn("a static curve", self.refused("explain", LIGAMENT, "--as", form, code="not-exported" if form == "prony" else "no-linear-form").stderr)
+            self.assertIn("a static curve", self.refused("explain", LIGAMENT, "--as", form, code="not-exported"
+                                                         if form == "prony" else "no-linear-form").stderr)
         self.assertEqual(self.files(), [])
 
 

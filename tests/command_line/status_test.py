@@ -4,7 +4,8 @@ import re
 import subprocess
 import unittest
 
-from dashpot_command import (BROKEN, COMMAND_LINE_WRONG, DASHPOT, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, SOURCE, CommandTest, codes,
+from dashpot_command import (BROKEN, COMMAND_LINE_WRONG, DASHPOT, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, SOURCE,
+                             CommandTest, codes,
                              network)
 
 LINEAR_DEVICE = """{ "dashpot_device": 1, "name": "slide", "source": "none", "motion": "translation",
@@ -23,7 +24,8 @@ class Help(CommandTest):
         for command in COMMANDS:
             done = self.dashpot(command, "--help")
             self.assertEqual(done.stderr, "")
-            for option in ["FILE" if command == "check" else "NETWORK", "--device", "--rate", "--scheme", "--state-input", "--decomposition", "--scalar",
+            for option in ["FILE" if command == "check" else "NETWORK", "--device", "--rate", "--scheme",
+                           "--state-input", "--decomposition", "--scalar",
                            "--tolerance", "--diagnostics", "faithful", "paper", "backward-euler", "nodal", "float"]:
                 self.assertIn(option, done.stdout, command)
 
@@ -52,7 +54,8 @@ class Help(CommandTest):
 
     def test_version(self):
         """Fails if the program does not say what it is, and which formats and targets it knows."""
-        self.assertRegex(self.dashpot("--version").stdout, r"^dashpot \d+\.\d+\.\d+\nreads:   network 1, device 1, [^\n]*"
+        self.assertRegex(self.dashpot("--version").stdout,
+                         r"^dashpot \d+\.\d+\.\d+\nreads:   network 1, device 1, [^\n]*"
                          r"abaqus[^\n]*\nwrites:  network 1, [^\n]*\ntargets: cpp, c99[^\n]*\n$")
 
 
@@ -78,7 +81,9 @@ class Check(CommandTest):
         of."""
         self.write("slide.json", LINEAR_DEVICE)
         for at, warned in [("150 mm", True), ("90 mm", False)]:
-            self.write("tissue.json", '{ "dashpot": 1, "name": "tissue", "contact": { "at": "%s" }, "network": { "spring": "5 N/m" } }' % at)
+            self.write("tissue.json",
+                       '{ "dashpot": 1, "name": "tissue", "contact": { "at": "%s" }, '
+                       '"network": { "spring": "5 N/m" } }' % at)
             said = self.dashpot("check", "tissue.json", "--device", "slide.json").stderr
             self.assertEqual("[surface-out-of-reach]" in said, warned, said)
         self.assertNotIn("[surface-out-of-reach]", self.dashpot("check", "tissue.json").stderr)
@@ -128,7 +133,8 @@ class WrongCommandLine(CommandTest):
         self.wrong("check", FIG_5, "--state-input", "force", mentions="force")
         self.wrong("check", FIG_5, "--scalar", "half", mentions="half")
         self.wrong("check", FIG_5, "--diagnostics", "xml", mentions="xml")
-        self.wrong("compile", FIG_5, "--target", "cobol", mentions="there is no target 'cobol'; targets are cpp, c99, hal, fmi2, fmi3")
+        self.wrong("compile", FIG_5, "--target", "cobol",
+                   mentions="there is no target 'cobol'; targets are cpp, c99, hal, fmi2, fmi3")
         self.wrong("compile", FIG_5, "--target", "c98", mentions="'c99' is the nearest")
         self.wrong("compile", FIG_5, "--print", "everything", mentions="everything")
 
@@ -137,7 +143,8 @@ class WrongCommandLine(CommandTest):
         self.write("n.json", KELVIN)
         self.write("m.csv", "time,position\n0,0\n0.001,0\n")
         self.write("kelvin.hpp", KELVIN)
-        for arguments in [("compile", "n.json", "--depfile", "./n.json"), ("compile", "n.json", "--certificate", "./n.json"),
+        for arguments in [("compile", "n.json", "--depfile", "./n.json"),
+                          ("compile", "n.json", "--certificate", "./n.json"),
                           ("compile", "kelvin.hpp"), ("simulate", "n.json", "--input", "m.csv", "-o", "m.csv"),
                           ("run", "n.json", "--device", PANTOGRAPH, "--log", "n.json", "--for", "0.1")]:
             self.refused(*arguments, code="would-overwrite-input", status=COMMAND_LINE_WRONG)
@@ -165,7 +172,8 @@ class WrongCommandLine(CommandTest):
     def test_of_a_board_that_is_to_be_simulated(self):
         """Fails if a choice that only the simulated device has is dropped without a warning where a board is driven."""
         for option in [["--fast"], ["--hand", "relaxed"], ["--seed", "0"]]:
-            done = self.refused("run", FIG_5, "--device", PANTOGRAPH, "--port", "unix:absent.sock", "--for", "1", *option,
+            done = self.refused("run", FIG_5, "--device", PANTOGRAPH, "--port", "unix:absent.sock", "--for", "1",
+                                *option,
                                 code="simulated-device-only", status=COMMAND_LINE_WRONG)
             self.assertIn(f"error: {option[0]} with --port", done.stderr)
         self.assertEqual(self.files(), [])
@@ -214,7 +222,8 @@ class RefusedInput(CommandTest):
         """Fails if relaxations that a loop is too slow for are reported otherwise than by the fastest, and how many
         they are."""
         for count in (1, 2, 3):
-            branches = ", ".join(f'{{ "series": [ {{ "spring": 1e6 }}, {{ "damper": {10**i} }} ] }}' for i in range(count))
+            branches = ", ".join(f'{{ "series": [ {{ "spring": 1e6 }}, {{ "damper": {10**i} }} ] }}'
+                                 for i in range(count))
             self.write("fast.json", network(f'{{ "parallel": [ {branches} ] }}'))
             told = self.dashpot("check", "fast.json").stderr
             self.assertEqual(told.count("[fast-relaxation]"), 1)
@@ -241,7 +250,8 @@ class Diagnostics(CommandTest):
     def test_every_message_names_its_network(self):
         """Fails if one cannot tell which of several networks a message is about."""
         self.write("kelvin.json", KELVIN)
-        self.write("tuned.json", network('{ "spring": "K" }', "tuned", '"parameters": { "K": { "value": 1, "min": 0, "max": 2, "tunable": true } },'))
+        self.write("tuned.json", network('{ "spring": "K" }', "tuned",
+                                         '"parameters": { "K": { "value": 1, "min": 0, "max": 2, "tunable": true } },'))
         single = SOURCE / "runtime/devices/phantom_single_motor.json"
         sliding = json.loads(PANTOGRAPH.read_text())
         sliding["velocity"] = {"estimator": "super_twisting", "acceleration": "50 rad/s^2"}
@@ -249,9 +259,11 @@ class Diagnostics(CommandTest):
         for code, arguments in [("damping-capped", ["kelvin.json", "--device", single, "--decomposition", "paper"]),
                                 ("injects-power", ["kelvin.json", "--decomposition", "9"]),
                                 ("tunable-needs-position", ["tuned.json", "--state-input", "velocity"]),
-                                ("velocity-input-drifts", ["kelvin.json", "--device", "sliding.json", "--state-input", "velocity"]),
+                                ("velocity-input-drifts", ["kelvin.json", "--device", "sliding.json", "--state-input",
+                                                           "velocity"]),
                                 ("not-certified", ["kelvin.json", "--device", single])]:
-            done = subprocess.run([DASHPOT, "compile", FIG_5, *arguments], cwd=self.folder, capture_output=True, text=True)
+            done = subprocess.run([DASHPOT, "compile", FIG_5, *arguments], cwd=self.folder, capture_output=True,
+                                  text=True)
             self.assertRegex(done.stderr, rf"(?m)^{arguments[0]}:1:\d+: (error|warning): .* \[{code}\]$")
 
     def test_json_is_one_array(self):
@@ -326,8 +338,10 @@ class StandardOutput(CommandTest):
         self.write("motion.csv", "time,position\n0,0\n0.001,0\n")
         self.dashpot("compile", FIG_5, "--certificate", "c.json")
         blade = ["--blade", "1 mm", "--pole-length", "20 mm", "--pole-width", "20 mm", "--field", "1 T"]
-        for command in [["explain", FIG_5], ["explain", FIG_5, "--json"], ["compile", FIG_5, "--print", "law"], ["--version"], ["--help"],
-                        ["compile", "--help"], ["simulate", FIG_5, "--input", "motion.csv"], ["verify", "c.json", "second_order_maxwell.hpp"],
+        for command in [["explain", FIG_5], ["explain", FIG_5, "--json"], ["compile", FIG_5, "--print", "law"],
+                        ["--version"], ["--help"],
+                        ["compile", "--help"], ["simulate", FIG_5, "--input", "motion.csv"],
+                        ["verify", "c.json", "second_order_maxwell.hpp"],
                         ["device", PANTOGRAPH, *blade], ["run", FIG_5, "--device", PANTOGRAPH, "--fast", "--for", "5"]]:
             with open("/dev/full", "w") as full:
                 done = subprocess.run([DASHPOT, *map(str, command)], stdout=full, stderr=subprocess.PIPE, text=True,

@@ -7,9 +7,10 @@ import unittest
 from dashpot_command import COMMAND_LINE_WRONG, FIG_5, PANTOGRAPH, SOURCE, CommandTest
 
 THEORY = SOURCE / "compiler/certify/proof"
-# Without lag by both inputs of the states, with delay, lag and filter, behind a lag for holds of many lengths, and of commands that
-# act later than their samples.
-LAWS = [[FIG_5], [SOURCE / "networks/paper/bridge.json", "--state-input", "velocity"], [FIG_5, "--device", "punctual.json"],
+# Without lag by both inputs of the states, with delay, lag and filter, behind a lag for holds of many lengths, and of
+# commands that act later than their samples.
+LAWS = [[FIG_5], [SOURCE / "networks/paper/bridge.json", "--state-input", "velocity"],
+        [FIG_5, "--device", "punctual.json"],
         [SOURCE / "networks/paper/kelvin.json", "--device", "late.json"], [FIG_5, "--device", "writing.json"]]
 # Of Coq's real numbers, and no others.
 AXIOMS = {"ClassicalDedekindReals.sig_forall_dec", "ClassicalDedekindReals.sig_not_dec",
@@ -18,8 +19,10 @@ AXIOMS = {"ClassicalDedekindReals.sig_forall_dec", "ClassicalDedekindReals.sig_n
 INTEGRALS = AXIOMS | {"Classical_Prop.classic"}
 THEOREMS = {
     "Loop": ["nothing_is_extracted", "sound_if_accepted"],
-    "Slips": ["nothing_is_extracted", "nothing_is_extracted_when_late", "relaxing_holds", "relaxing_follows", "at_once_holds",
-              "at_once_follows", "behind_holds", "behind_follows", "elements_take_in", "slip_takes_in", "sliding_holds"],
+    "Slips": ["nothing_is_extracted", "nothing_is_extracted_when_late", "relaxing_holds", "relaxing_follows",
+              "at_once_holds",
+              "at_once_follows", "behind_holds", "behind_follows", "elements_take_in", "slip_takes_in",
+              "sliding_holds"],
     "Clamp": ["nothing_is_extracted_from_a_clipped_force", "clips_at_limit"]}
 ON_INTEGRALS = {"Hold": ["lagging_hold", "least_dissipation_of_shorter_holds"]}
 
@@ -52,7 +55,9 @@ class TheoryTest(CommandTest):
         self.write("punctual.json", json.dumps(device | {"loop": device["loop"] | {"jitter": "0 s"}}))
         writing = device | {"loop": device["loop"] | {"write_delay": ["5 us", "30 us"]}, "motor": dict(device["motor"])}
         del writing["motor"]["amplifier_lag"]
-        self.write("writing.json", json.dumps(writing | {"assumed": [key for key in device["assumed"] if key != "motor.amplifier_lag"]}))
+        self.write("writing.json",
+                   json.dumps(writing |
+                              {"assumed": [key for key in device["assumed"] if key != "motor.amplifier_lag"]}))
         for number, law in enumerate(LAWS):
             with self.subTest(law=law):
                 self.dashpot("compile", *law, "--proof", "law.v")
@@ -61,7 +66,8 @@ class TheoryTest(CommandTest):
                 self.assertEqual(text.count("gamma :="), 2 if "late.json" in law else 1)
                 self.assert_no_more_axioms(self.coqc(f"Law{number}.v", text), AXIOMS)
                 if number not in (0, len(LAWS) - 1): continue
-                lowered = re.sub(r"beta := 0x([0-9a-f]+)", lambda beta: f"beta := {int(beta[1], 16) * 99999 // 100000}", text)
+                lowered = re.sub(r"beta := 0x([0-9a-f]+)", lambda beta: f"beta := {int(beta[1], 16) * 99999 // 100000}",
+                                 text)
                 self.assertNotEqual(lowered, text)
                 self.coqc("Lowered.v", lowered, accepted=False)
 
@@ -78,7 +84,8 @@ class TheoryTest(CommandTest):
         device["motor"].pop("amplifier_lag")
         device["assumed"].remove("motor.amplifier_lag")
         adaptive = self.write("adaptive.json", json.dumps(device))
-        self.refused("compile", FIG_5, "--device", adaptive, "--uncertified", "--decomposition", "paper", "--proof", "law.v",
+        self.refused("compile", FIG_5, "--device", adaptive, "--uncertified", "--decomposition", "paper", "--proof",
+                     "law.v",
                      code="no-storage-function")
 
 

@@ -23,13 +23,15 @@ KELVIN_FOUR = SOURCE / "networks/paper/generalised_kelvin_four.json"
 EQUAL = """{"parallel": [{"series": [{"spring": 10}, {"damper": 1}]}, {"series": [{"spring": 20}, {"damper": 2}]},
     {"series": [{"spring": 5}, {"damper": 3}]}]}"""
 
-# One law of each shape: with and without a device, both schemes and scalars, every state input, rolled and straight, modes of one rate.
+# One law of each shape: with and without a device, both schemes and scalars, every state input, rolled and straight,
+# modes of one rate.
 LAWS = [
     [FIG_5], [BRIDGE, "--rate", "3000"], [TWENTY], [FIG_5, "--scalar", "float"],
     [FIG_5, "--scheme", "backward-euler"], [FIG_5, "--state-input", "velocity"],
     [KELVINS, "--scheme", "backward-euler", "--state-input", "nodal"],
     [FIG_5, "--device", BOARD], [FIG_5, "--device", PANTOGRAPH], [FIG_5, "--device", BOARD, "--scalar", "float"],
-    [FIG_5, "--decomposition", "2.5"], [FIG_5, "--scalar", "float", "--rate", "100000"], [TWENTY, "--vector", "avx512"], [TWENTY, "--batch"],
+    [FIG_5, "--decomposition", "2.5"], [FIG_5, "--scalar", "float", "--rate", "100000"], [TWENTY, "--vector", "avx512"],
+    [TWENTY, "--batch"],
     ["equal.json"],
 ]
 
@@ -48,21 +50,28 @@ FREED = ['{"series": [{"spring": 1000}, {"parallel": [{"slip": 0.4}, {"damper": 
          """{"series": [{"spring": 500}, {"parallel": [{"slip": 0.4}, {"series": [{"spring": 500}, {"slip": 0.1}]}, {"damper": 3},
     {"spring": 20}]}]}"""]
 
-# One law of each shape with slips or a contact: closed form, rolled, with modes, gated, steady, ramped, coupled, pushed.
+# One law of each shape with slips or a contact: closed form, rolled, with modes, gated, steady, ramped, coupled,
+# pushed.
 SLIP_LAWS = [
-    [PAPER / "visco_elasto_plastic.json"], [PAPER / "visco_elasto_plastic_organ.json"], [PAPER / "maxwell_slip_ten.json"],
-    [PAPER / "virtual_wall.json", "--constant-time"], [SOURCE / "networks/tissues/needle_in_liver.json"], ["coupled.json"],
+    [PAPER / "visco_elasto_plastic.json"], [PAPER / "visco_elasto_plastic_organ.json"],
+    [PAPER / "maxwell_slip_ten.json"],
+    [PAPER / "virtual_wall.json", "--constant-time"], [SOURCE / "networks/tissues/needle_in_liver.json"],
+    ["coupled.json"],
     [PAPER / "visco_elasto_plastic.json", "--device", PANTOGRAPH, "--decomposition", "velocity-free"],
     [PAPER / "visco_elasto_plastic_organ.json", "--device", BOARD], [PAPER / "virtual_wall.json", "--device", BOARD],
     ["coupled.json", "--scheme", "backward-euler"], ["coupled.json", "--scalar", "float"],
     [PAPER / "visco_elasto_plastic_organ.json", "--scalar", "float", "--decomposition", "ramped"],
-    *[[file, "--decomposition", law] for file in ("damped.json", "touched.json") for law in ("gated", "ramped")], ["damped.json", "--decomposition", "steady"],
-    ["damped_loop.json", "--decomposition", "gated"], ["damped_loop.json", "--decomposition", "ramped"], ["damped_loop.json", "--decomposition", "steady"],
+    *[[file, "--decomposition", law] for file in ("damped.json", "touched.json") for law in ("gated", "ramped")],
+    ["damped.json", "--decomposition", "steady"],
+    ["damped_loop.json", "--decomposition", "gated"], ["damped_loop.json", "--decomposition", "ramped"],
+    ["damped_loop.json", "--decomposition", "steady"],
     *[[f"freed_{i}.json", "--decomposition", "gated"] for i in range(len(FREED))],
-    ["damped.json", "--device", BOARD, "--decomposition", "steady"], ["damped.json", "--device", BOARD, "--decomposition", "gated"],
+    ["damped.json", "--device", BOARD, "--decomposition", "steady"],
+    ["damped.json", "--device", BOARD, "--decomposition", "gated"],
 ]
 
-# Slips in no tree: with a mode that two of them share, and such a part behind a contact, beside a tree, and with modes of one rate.
+# Slips in no tree: with a mode that two of them share, and such a part behind a contact, beside a tree, and with modes
+# of one rate.
 LOOP = """{"spring": 5, "nodes": ["tool", "p"], "name": "a"}, {"spring": 7, "nodes": ["tool", "q"], "name": "b"},
     {"spring": 3, "nodes": ["p", "q"], "name": "c"}, {"slip": 1, "nodes": ["p", "ground"], "name": "d"},
     {"slip": 2, "nodes": ["q", "ground"], "name": "e"}, {"spring": 11, "nodes": ["p", "r"], "name": "f"},
@@ -71,13 +80,18 @@ BESIDE = """{"spring": 3, "nodes": ["tool", "w"], "name": "i"}, {"damper": 0.5, 
     {"spring": 90, "nodes": ["tool", "x"], "name": "k"}, {"slip": 0.4, "nodes": ["x", "ground"], "name": "l"},
     {"spring": 8, "nodes": ["tool", "ground"], "name": "m"}, {"damper": 0.7, "nodes": ["tool", "ground"], "name": "n"}"""
 # More inner nodes between two slips than slips have ends.
-DEEP = ", ".join([f'{{"spring": {10 + 7 * i}, "nodes": ["d{i}", "d{i + 1}"], "name": "w{i}"}}, {{"damper": {1 + 0.3 * i}, "nodes": ["d{i}", "{end}"], "name": "v{i}"}}'
-                  for i, end in enumerate(("p", "tool", "q", "ground", "q"))] + ['{"spring": 17, "nodes": ["d5", "p"], "name": "w5"}'])
-STAR = ", ".join([f'{{"spring": 10, "nodes": ["tool", "p{i}"], "name": "s{i}"}}, {{"slip": {i}, "nodes": ["p{i}", "ground"], "name": "y{i}"}},'
-                  f'{{"spring": 5, "nodes": ["p{i}", "q{i}"], "name": "t{i}"}}, {{"damper": 2, "nodes": ["q{i}", "c"], "name": "b{i}"}},'
+DEEP = ", ".join([f'{{"spring": {10 + 7 * i}, "nodes": ["d{i}", "d{i + 1}"], "name": "w{i}"}}, {{"damper": '
+                  f'{1 + 0.3 * i}, "nodes": ["d{i}", "{end}"], "name": "v{i}"}}'
+                  for i, end in enumerate(("p", "tool", "q", "ground", "q"))] +
+                 ['{"spring": 17, "nodes": ["d5", "p"], "name": "w5"}'])
+STAR = ", ".join([f'{{"spring": 10, "nodes": ["tool", "p{i}"], "name": "s{i}"}}, {{"slip": {i}, "nodes": ["p{i}", '
+                  f'"ground"], "name": "y{i}"}},'
+                  f'{{"spring": 5, "nodes": ["p{i}", "q{i}"], "name": "t{i}"}}, {{"damper": 2, "nodes": ["q{i}", "c"], '
+                  f'"name": "b{i}"}},'
                   f'{{"spring": 1, "nodes": ["q{i}", "c"], "name": "u{i}"}}' for i in (1, 2, 3)])
 
-# Parameters of every place: in slips' yield forces and springs, in Maxwell elements, in a mesh, beside fixed modes, behind a contact.
+# Parameters of every place: in slips' yield forces and springs, in Maxwell elements, in a mesh, beside fixed modes,
+# behind a contact.
 TUNED = """{"spring": "k", "nodes": ["tool", "p"], "name": "a"}, {"damper": "b", "nodes": ["p", "ground"], "name": "c"},
     {"spring": 60, "nodes": ["tool", "q"], "name": "d"}, {"damper": "b", "nodes": ["tool", "q"], "name": "e"},
     {"damper": 2.5, "nodes": ["q", "r"], "name": "f"}, {"spring": "k", "nodes": ["r", "ground"], "name": "g"},
@@ -94,35 +108,44 @@ def of_elements(elements, name, more=""):
 
 
 OTHER_LAWS = [
-    ["loop.json"], ["loop.json", "--scheme", "backward-euler", "--device", PANTOGRAPH], ["loop.json", "--scalar", "float"],
+    ["loop.json"], ["loop.json", "--scheme", "backward-euler", "--device", PANTOGRAPH],
+    ["loop.json", "--scalar", "float"],
     ["loops.json", "--device", BOARD], ["deep_loop.json"], ["pushed_loop.json"], ["star.json"],
     [PAPER / "visco_elasto_plastic_organ.json", "--scheme", "backward-euler", "--state-input", "nodal"],
     ["loops.json", "--scheme", "backward-euler", "--state-input", "nodal"],
-    [SOURCE / "networks/tunable/friction_tunable.json", "--device", BOARD], [SOURCE / "networks/tunable/second_order_maxwell_tunable.json"],
+    [SOURCE / "networks/tunable/friction_tunable.json", "--device", BOARD],
+    [SOURCE / "networks/tunable/second_order_maxwell_tunable.json"],
     [SOURCE / "networks/tunable/standard_solid_tunable.json", "--device", PANTOGRAPH, "--scalar", "float"],
     [SOURCE / "networks/tunable/standard_solid_tunable.json", "--device", BOARD, "--constant-time"],
     [SOURCE / "networks/tunable/second_order_maxwell_tunable.json", "--constant-time", "--batch"],
-    ["tuned.json", "--device", BOARD, "--decomposition", "1.25"], ["tuned.json", "--scheme", "backward-euler"], ["pushed_tuned.json"],
+    ["tuned.json", "--device", BOARD, "--decomposition", "1.25"], ["tuned.json", "--scheme", "backward-euler"],
+    ["pushed_tuned.json"],
     ["tuned.json", "--rate", "1"],
-    [SOURCE / "networks/tunable/layers_tunable.json", "--device", PANTOGRAPH], [SOURCE / "networks/tunable/layers_tunable.json", "--scheme", "backward-euler", "--scalar", "float"],
+    [SOURCE / "networks/tunable/layers_tunable.json", "--device", PANTOGRAPH],
+    [SOURCE / "networks/tunable/layers_tunable.json", "--scheme", "backward-euler", "--scalar", "float"],
 ]
 
 
 # Networks with tunable parameters whose brake is told what passivity adds, and little else: one on each device.
-TUNED_ON_DEVICES = [[SOURCE / f"networks/tunable/{name}_tunable.json", "--device", SOURCE / f"runtime/devices/{device}.json"]
+TUNED_ON_DEVICES = [[SOURCE / f"networks/tunable/{name}_tunable.json", "--device",
+                     SOURCE / f"runtime/devices/{device}.json"]
                     for of, devices in [("springpot", ("board_mps2", "phantom_shorted_motor")),
                                         ("second_order_maxwell", ("pantograph_brake_2009", "phantom_single_motor"))]
                     for device in devices
                     for name in (("springpot", "second_order_maxwell") if IS_LONG else (of,))]
 
-# A relaxation that is over within a sample, one of almost no force, a surface with nothing behind it, and dampers far apart.
-EXTREMES = {"quick": '{"series": [{"spring": 1}, {"damper": 2e-5}]}', "faint": '{"series": [{"spring": 1e-30}, {"damper": 1e-30}]}',
+# A relaxation that is over within a sample, one of almost no force, a surface with nothing behind it, and dampers far
+# apart.
+EXTREMES = {"quick": '{"series": [{"spring": 1}, {"damper": 2e-5}]}',
+            "faint": '{"series": [{"spring": 1e-30}, {"damper": 1e-30}]}',
             "nothing": '{"damper": 0}'}
 APART = """{"damper": 0.5915, "nodes": ["a", "ground"]}, {"damper": 703802019830.2926, "nodes": ["b", "tool"]}, {"damper": 0.8827, "nodes": ["c", "ground"]},
     {"spring": 2541.0, "nodes": ["c", "b"]}, {"spring": 2.413, "nodes": ["tool", "a"]}, {"damper": 57.22, "nodes": ["ground", "b"]},
     {"slip": 0.5, "nodes": ["tool", "b"]}, {"spring": 113.9, "nodes": ["tool", "a"]}"""
-EXTREME_LAWS = [["quick.json"], ["quick.json", "--state-input", "velocity"], ["quick.json", "--state-input", "velocity", "--rate", "0.1"],
-                ["faint.json", "--scalar", "float"], ["nothing.json"], ["apart.json", "--decomposition", "velocity-free"]]
+EXTREME_LAWS = [["quick.json"], ["quick.json", "--state-input", "velocity"],
+                ["quick.json", "--state-input", "velocity", "--rate", "0.1"],
+                ["faint.json", "--scalar", "float"], ["nothing.json"],
+                ["apart.json", "--decomposition", "velocity-free"]]
 
 
 def changed_digit(text, place, chance):
@@ -158,21 +181,24 @@ class Verify(CommandTest):
         self.write("star.json", of_elements(STAR, "star"))
         self.write("tuned.json", of_elements(TUNED, "tuned", f'"parameters": {BOX},'))
         self.write("pushed_tuned.json", of_elements(TUNED, "pushed_tuned", f'{contact} "parameters": {BOX},'))
-        self.write("damped_loop.json", of_elements(f'{LOOP}, {{ "damper": 0.5, "nodes": ["p", "ground"] }}', "damped_loop"))
+        self.write("damped_loop.json", of_elements(f'{LOOP}, {{ "damper": 0.5, "nodes": ["p", "ground"] }}',
+                                                   "damped_loop"))
         self.write("equal.json", network(EQUAL, "equal"))
         self.write("damped.json", network(DAMPED, "damped"))
         for i, freed in enumerate(FREED):
             self.write(f"freed_{i}.json", network(freed, f"freed_{i}"))
         self.write("apart.json", of_elements(APART, "apart"))
         for name, extreme in EXTREMES.items():
-            self.write(f"{name}.json", network(extreme, name, '"contact": { "at": -0.003 },' if name == "nothing" else ""))
+            self.write(f"{name}.json", network(extreme, name, '"contact": { "at": -0.003 },' if name == "nothing"
+                                               else ""))
         self.write("touched.json", network(DAMPED, "touched", '"contact": { "at": 0 },'))
 
     def emitted(self, law, folder):
         """Header and certificate of a law, as text."""
         self.dashpot("compile", *law, "--uncertified", "--no-advice", "-o", folder,
                      "--certificate", self.folder / folder / "certificate.json")
-        header = min((self.folder / folder).glob("*.hpp"), key=lambda path: len(path.name))  # NAME.hpp is before NAME_batch.hpp
+        # NAME.hpp is before NAME_batch.hpp
+        header = min((self.folder / folder).glob("*.hpp"), key=lambda path: len(path.name))
         return header.read_text(), (self.folder / folder / "certificate.json").read_text()
 
     def emitted_once(self, law, folder):
@@ -197,7 +223,8 @@ class Verify(CommandTest):
     def test_every_number_and_sentence_of_the_banner(self):
         """Fails if a banner passes that says anything else than what is so of the network, or says less."""
         chance = random.Random(SEED + 20)
-        laws = [[FIG_5], [FIG_5, "--device", BOARD], [FIG_5, "--device", PANTOGRAPH], [PAPER / "visco_elasto_plastic_organ.json", "--device", BOARD],
+        laws = [[FIG_5], [FIG_5, "--device", BOARD], [FIG_5, "--device", PANTOGRAPH],
+                [PAPER / "visco_elasto_plastic_organ.json", "--device", BOARD],
                 [SOURCE / "networks/tunable/friction_tunable.json", "--device", BOARD]]
         told_before = set()  # sentences but for their numbers: each kind is forged in one law at least
         for i, law in enumerate(laws):
@@ -234,7 +261,8 @@ class Verify(CommandTest):
         self.write("bare.json", json.dumps(bare))
         self.write("spring.json", network('{ "spring": 3000 }', "spring"))
         single = SOURCE / "runtime/devices/phantom_single_motor.json"
-        for i, (law, missing) in enumerate([(["kelvin.json", "--device", "bare.json"], None), (["kelvin.json", "--device", single], True), (["spring.json"], True)]):
+        for i, (law, missing) in enumerate([(["kelvin.json", "--device", "bare.json"], None),
+                                            (["kelvin.json", "--device", single], True), (["spring.json"], True)]):
             with self.subTest(law=law):
                 header, certificate = self.emitted(law, f"law_{i}")
                 self.write("c.json", certificate)
@@ -250,37 +278,46 @@ class Verify(CommandTest):
                 self.assertTrue(done.stdout.endswith("; not certified\n"), done.stdout)
 
     def test_grades(self):
-        """Fails if header, certificate or verify's word call certified under jitter what is proved for a constant period only, or the other way round."""
+        """Fails if header, certificate or verify's word call certified under jitter what is proved for a constant
+        period only, or the other way round."""
         device = json.loads(BOARD.read_text())
         constant = "certified for a constant period only"
-        cases = [("0 s", "0.5 ms", "certified"), ("0.2 ms", "0.1 ms", "certified"), ("0.2 ms", "0.9 ms", "certified"), ("0.2 ms", "0 s", constant)]
+        cases = [("0 s", "0.5 ms", "certified"), ("0.2 ms", "0.1 ms", "certified"), ("0.2 ms", "0.9 ms", "certified"),
+                 ("0.2 ms", "0 s", constant)]
         for lag, jitter, grade in cases:
             with self.subTest(lag=lag, jitter=jitter):
                 device["motor"]["amplifier_lag"], device["loop"]["jitter"] = lag, jitter
                 self.write("device.json", json.dumps(device))
                 header, certificate = self.emitted([KELVIN_FOUR, "--device", "device.json"], "law")
                 passivity, is_constant = json.loads(certificate)["passivity"], grade == constant
-                self.assertEqual((passivity["certified"], passivity["grade"], passivity["constant_period_only"]), (True, grade, is_constant))
+                self.assertEqual((passivity["certified"], passivity["grade"], passivity["constant_period_only"]),
+                                 (True, grade, is_constant))
                 banner = re.sub(r"\s*\n//\s*", " ", header[:header.index("#pragma once")])
-                self.assertIn(f"{constant}: any motion, samples at" if is_constant else "certified for any motion", banner)
+                self.assertIn(f"{constant}: any motion, samples at" if is_constant else "certified for any motion",
+                              banner)
                 self.assertEqual("any jitter up to" in banner, not is_constant)
                 self.assertTrue(self.verify(header, certificate, "graded").stdout.endswith(f"; {grade}\n"))
                 self.write("law.hpp", header)
                 self.write("law.json", certificate)
-                checked = subprocess.run([os.environ["DASHPOT_CHECK"], "law.hpp", "law.json"], cwd=self.folder, capture_output=True, text=True)
-                self.assertEqual((checked.returncode, "of one length" in checked.stdout), (0, is_constant), checked.stdout)
-                told = json.loads(self.dashpot("explain", KELVIN_FOUR, "--device", "device.json", "--json").stdout)["certificate"]
+                checked = subprocess.run([os.environ["DASHPOT_CHECK"], "law.hpp", "law.json"], cwd=self.folder,
+                                         capture_output=True, text=True)
+                self.assertEqual((checked.returncode, "of one length" in checked.stdout), (0, is_constant),
+                                 checked.stdout)
+                told = json.loads(self.dashpot("explain", KELVIN_FOUR, "--device", "device.json",
+                                               "--json").stdout)["certificate"]
                 self.assertEqual((told["grade"], told["constant_period_only"]), (grade, is_constant))
         device["motor"]["amplifier_lag"], device["loop"]["jitter"] = "0.2 ms", "1 ms"
         self.write("device.json", json.dumps(device))
         header, certificate = self.emitted([KELVIN_FOUR, "--device", "device.json"], "at_once")
-        self.assertIn("not certified: the amplifier lags, and the jitter is a sample or more", re.sub(r"\s*\n//\s*", " ", header))
+        self.assertIn("not certified: the amplifier lags, and the jitter is a sample or more",
+                      re.sub(r"\s*\n//\s*", " ", header))
         self.assertEqual(json.loads(certificate)["passivity"]["grade"], "not certified")
 
     def test_code_in_the_banner(self):
         """Fails if code in front of a header's own is taken for a part of its banner, however it is written there."""
         header, certificate = self.emitted([FIG_5], "law")
-        for i, line in enumerate(["#define relaxed(t, d, f, g) relaxed(t, d, f, -(g))", " int impostor;", "/**/ int impostor;", "// \\", "// \\ ", "// \\\t", "// ??/",
+        for i, line in enumerate(["#define relaxed(t, d, f, g) relaxed(t, d, f, -(g))", " int impostor;",
+                                  "/**/ int impostor;", "// \\", "// \\ ", "// \\\t", "// ??/",
                                   "// \r#define relaxed wrong", "//\r"]):
             with self.subTest(line=line):
                 changed = header.replace("#pragma once", line + "\n#pragma once")
@@ -291,8 +328,10 @@ class Verify(CommandTest):
     def test_code_that_is_none(self):
         """Fails if a declaration without a name ends more than this header."""
         header, certificate = self.emitted([FIG_5], "law")
-        for i, line in enumerate(["static constexpr scalar ] = 1.0;", "static constexpr scalar = 1.0;", "static constexpr scalar x[", "static constexpr  = scalar"]):
-            self.verify(header.replace("static constexpr scalar damping", line + "\n  static constexpr scalar damping"), certificate, f"none_{i}",
+        for i, line in enumerate(["static constexpr scalar ] = 1.0;", "static constexpr scalar = 1.0;",
+                                  "static constexpr scalar x[", "static constexpr  = scalar"]):
+            self.verify(header.replace("static constexpr scalar damping", line + "\n  static constexpr scalar damping"),
+                        certificate, f"none_{i}",
                         status=INPUT_REFUSED)
 
     def test_another_device(self):
@@ -306,7 +345,8 @@ class Verify(CommandTest):
         """Fails if code that differs is not shown in its place, in a header of either kind, with what belongs there."""
         for kind in ([], ["--constant-time"]):
             header, certificate = self.emitted([FIG_5, *kind], f"law_{len(kind)}")
-            told = self.verify(header.replace("B2_K2_force_ + B1_K1_force_", "B2_K2_force_ - B1_K1_force_"), certificate, f"minus_{len(kind)}",
+            told = self.verify(header.replace("B2_K2_force_ + B1_K1_force_", "B2_K2_force_ - B1_K1_force_"),
+                               certificate, f"minus_{len(kind)}",
                                status=INPUT_REFUSED).stderr
             line = 1 + header[:header.index("B2_K2_force_ + B1_K1_force_")].count("\n")
             self.assertIn(f"minus_{len(kind)}.hpp:{line}:", told)
@@ -323,11 +363,13 @@ class Verify(CommandTest):
             slipping = (self.folder / name / f"{name}_batch.hpp").read_text()
             self.assertIn("nearest", self.verify(slipping, of_slips, f"{name}_points").stdout)
         place = numbers_of(points[:points.index("storage_size")])[-1][1] - 1
-        others = [points.replace(" + ", " - ", 1), changed_digit(points, place, random.Random(SEED)), points.replace("states = ", "states = 1", 1)]
+        others = [points.replace(" + ", " - ", 1), changed_digit(points, place, random.Random(SEED)),
+                  points.replace("states = ", "states = 1", 1)]
         for i, other in enumerate(others):
             self.assertTrue(other != points, i)
             self.assertIn("[code-differs]", self.verify(other, certificate, f"points_{i}", status=INPUT_REFUSED).stderr)
-        certificate = json.dumps(json.loads(certificate) | {"constants": json.loads(self.emitted([FIG_5], "other")[1])["constants"]})
+        certificate = json.dumps(json.loads(certificate) |
+                                 {"constants": json.loads(self.emitted([FIG_5], "other")[1])["constants"]})
         self.verify(points, certificate, "another", status=INPUT_REFUSED)
 
     def test_everything_that_is_told(self):
@@ -355,7 +397,8 @@ class Verify(CommandTest):
         self.assertGreater(len(places), 80)
         changes = [(path, other) for path, value in places if path[-1] not in free[1] for other in others(value)]
         changes += [(["version"], 1), (["passivity", "binding_frequency"], "often")]
-        changes += [(path, None) for path, _ in places if isinstance(path[-1], str) and path[-1] not in free[1]] + [(["loop", "more"], 1), (["elements", 0, "slip"], 1)]
+        changes += [(path, None) for path, _ in places if isinstance(path[-1], str)
+                    and path[-1] not in free[1]] + [(["loop", "more"], 1), (["elements", 0, "slip"], 1)]
 
         def accepts(number):
             path, other = changes[number]
@@ -366,7 +409,8 @@ class Verify(CommandTest):
             if other is None and path[-1] in inside: del inside[path[-1]]
             else: inside[path[-1]] = other
             self.write(f"told_{number}.json", json.dumps(changed))
-            return subprocess.run([DASHPOT, "verify", "--allow-uncertified", f"told_{number}.json", "law/second_order_maxwell.hpp"], cwd=self.folder,
+            return subprocess.run([DASHPOT, "verify", "--allow-uncertified", f"told_{number}.json",
+                                   "law/second_order_maxwell.hpp"], cwd=self.folder,
                                   capture_output=True).returncode != INPUT_REFUSED
 
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
@@ -380,13 +424,15 @@ class Verify(CommandTest):
     def test_what_is_just_enough(self):
         """Fails if a brake that gives exactly what is needed is found wanting, when compiling or when verifying."""
         def kelvin(damping):
-            self.write("just.json", network(f'{{ "parallel": [ {{ "spring": 100 }}, {{ "damper": {damping!r} }} ] }}', "just"))
+            self.write("just.json", network(f'{{ "parallel": [ {{ "spring": 100 }}, {{ "damper": {damping!r} }} ] }}',
+                                            "just"))
             header, certificate = self.emitted(["just.json"], "just")
             return header, certificate, json.loads(certificate)["passivity"]
 
         needed = kelvin(1.0)[2]["needed_damping"]
         header, certificate, passivity = kelvin(needed)
-        self.assertEqual((passivity["needed_damping"], passivity["assured_damping"], passivity["certified"]), (needed, needed, True))
+        self.assertEqual((passivity["needed_damping"], passivity["assured_damping"], passivity["certified"]),
+                         (needed, needed, True))
         self.verify(header, certificate, "just_enough")
 
     def mutants(self, count, chance, consistently, laws=LAWS):
@@ -396,7 +442,8 @@ class Verify(CommandTest):
             if not consistently:
                 yield number, changed_digit(header, chance.choice(digits_of_code(header)), chance), certificate
                 continue
-            constants = [c for c in re.finditer(r"static constexpr [^;=]*\bscalar>? (\w+)(?:\[\d*\])? = ([^;]*);", header) if numbers_of(c.group(2))]
+            constants = [c for c in re.finditer(r"static constexpr [^;=]*\bscalar>? (\w+)(?:\[\d*\])? = ([^;]*);",
+                                                header) if numbers_of(c.group(2))]
             constant = chance.choice(constants)
             start, end = chance.choice(numbers_of(constant.group(2)))
             places = [i for i in range(constant.start(2) + start, constant.start(2) + end) if header[i].isdigit()]
@@ -420,7 +467,8 @@ class Verify(CommandTest):
 
     def expect_recomputed(self, told):
         """Wrong constants are not found only because compiling once more gives others."""
-        found = sum(any(code in text for code in ["constant-of-nothing", "constant-wrong", "unknown-constant"]) for text in told)
+        found = sum(any(code in text for code in ["constant-of-nothing", "constant-wrong", "unknown-constant"])
+                    for text in told)
         self.assertGreaterEqual(found, 0.9 * len(told))  # a digit may make it another of the network's own constants
 
     def test_single_digits_of_headers(self):
@@ -436,20 +484,25 @@ class Verify(CommandTest):
         self.expect_all_found(self.mutants(MOST_HEADERS, random.Random(SEED + 2), False, SLIP_LAWS))
 
     def test_single_digits_of_header_and_certificate_with_slips(self):
-        """Fails if a wrong constant of such a law passes because the certificate has the same mistake, or is not recomputed."""
-        self.expect_recomputed(self.expect_all_found(self.mutants(MOST_CONSTANTS, random.Random(SEED + 3), True, SLIP_LAWS)))
+        """Fails if a wrong constant of such a law passes because the certificate has the same mistake, or is not
+        recomputed."""
+        self.expect_recomputed(self.expect_all_found(self.mutants(MOST_CONSTANTS, random.Random(SEED + 3), True,
+                                                                  SLIP_LAWS)))
 
     def test_single_digits_of_headers_with_loops_and_tunables(self):
-        """Fails if a header with a single digit changed passes, of slips in no tree, of nodal states beside slips, or of
-        tunable parameters."""
+        """Fails if a header with a single digit changed passes, of slips in no tree, of nodal states beside slips, or
+        of tunable parameters."""
         self.expect_all_found(self.mutants(MOST_HEADERS, random.Random(SEED + 4), False, OTHER_LAWS))
 
     def test_single_digits_of_header_and_certificate_with_loops_and_tunables(self):
-        """Fails if a wrong constant of such a law passes because the certificate has the same mistake, or is not recomputed."""
-        self.expect_recomputed(self.expect_all_found(self.mutants(MOST_CONSTANTS, random.Random(SEED + 5), True, OTHER_LAWS)))
+        """Fails if a wrong constant of such a law passes because the certificate has the same mistake, or is not
+        recomputed."""
+        self.expect_recomputed(self.expect_all_found(self.mutants(MOST_CONSTANTS, random.Random(SEED + 5), True,
+                                                                  OTHER_LAWS)))
 
     def test_what_slips_and_blocks_keep_at_least(self):
-        """Fails if one unit in the last place more or less passes for what a block or a slip keeps at least while parameters change."""
+        """Fails if one unit in the last place more or less passes for what a block or a slip keeps at least while
+        parameters change."""
         refused = 0
         for law in (["tuned.json"], ["pushed_tuned.json"], [SOURCE / "networks/tunable/layers_tunable.json"]):
             header, certificate = self.emitted(law, f"law_{refused}")
@@ -514,14 +567,20 @@ class Verify(CommandTest):
         header, certificate = self.emitted([FIG_5], "law")
         for change, expected in [
             (lambda text: text[:text.index('"scheme"')], "no certificate: the end of the file where"),
-            (lambda text: text.replace('"position"', "5"), "no certificate: 'state_input' is a number; a string is expected"),
-            (lambda text: text.replace('"exact"', '"exactly"'), "no certificate: 'scheme' is 'exactly'; one of exact, backward-euler is expected"),
+            (lambda text: text.replace('"position"', "5"),
+             "no certificate: 'state_input' is a number; a string is expected"),
+            (lambda text: text.replace('"exact"', '"exactly"'),
+             "no certificate: 'scheme' is 'exactly'; one of exact, backward-euler is expected"),
             (lambda text: text.replace('"rate"', '"rates"'), "no certificate: 'law' has no key 'rate'"),
-            (lambda text: re.sub('"rate": [^,]*', '"rate": 0', text), "no certificate: 'rate' is '0'; 1e-06 to 1000000000 is expected"),
-            (lambda text: text.replace('"passivity": {', '"passivity": 5, "other": {'), "no certificate: 'passivity' is a number; an object is expected"),
+            (lambda text: re.sub('"rate": [^,]*', '"rate": 0', text),
+             "no certificate: 'rate' is '0'; 1e-06 to 1000000000 is expected"),
+            (lambda text: text.replace('"passivity": {', '"passivity": 5, "other": {'),
+             "no certificate: 'passivity' is a number; an object is expected"),
             (lambda text: text.replace('"certified": ', '"certified": 0.'), "no certificate: "),
-            (lambda text: text.replace('"dashpot_certificate": 1', '"dashpot_certificate": 2'), "no certificate: format is 2; this compiler reads format 1"),
-            (lambda text: re.sub(r'"static_stiffness": \[[^]]*\]', '"static_stiffness": ["5"]', text), "no certificate: 'static_stiffness' is a string; a number is expected"),
+            (lambda text: text.replace('"dashpot_certificate": 1', '"dashpot_certificate": 2'),
+             "no certificate: format is 2; this compiler reads format 1"),
+            (lambda text: re.sub(r'"static_stiffness": \[[^]]*\]', '"static_stiffness": ["5"]', text),
+             "no certificate: 'static_stiffness' is a string; a number is expected"),
             (lambda text: "[]", "is a list; an object is expected"), (lambda text: "", "the end of the file where")]:
             told = self.verify(header, change(certificate), "unclosed", INPUT_REFUSED).stderr
             self.assertRegex(told, r"\Aunclosed\.json:\d+:\d+: error: .*\[no-certificate\]\n")
@@ -533,15 +592,17 @@ class Verify(CommandTest):
         """Fails if a certificate is refused because of its network, and nothing says what is wrong with that."""
         header, certificate = self.emitted([FIG_5], "law")
         for network_text, told in [(network('{ "spring": -1 }'), "[negative-stiffness]"), ("{", "[unexpected-token]"),
-                                   (network('{ "parallel": [ { "spring": 1 }, { "spring": 1e-30 } ] }'), "[values-far-apart]")]:
+                                   (network('{ "parallel": [ { "spring": 1 }, { "spring": 1e-30 } ] }'),
+                                    "[values-far-apart]")]:
             changed = json.loads(certificate)
             changed["network_file"] = network_text
             self.assertIn(told, self.verify(header, json.dumps(changed), "changed", INPUT_REFUSED).stderr)
 
     def test_the_gain_of_the_encoders_error(self):
-        """Fails if another gain than that of the law passes, or none where there is one: linear, with an estimate, slips, a contact,
-        slips in no tree, parameters."""
-        laws = [[FIG_5], [FIG_5, "--device", BOARD], [FIG_5, "--device", PANTOGRAPH, "--decomposition", "2.5"], [PAPER / "maxwell_slip_ten.json", "--device", PANTOGRAPH],
+        """Fails if another gain than that of the law passes, or none where there is one: linear, with an estimate,
+        slips, a contact, slips in no tree, parameters."""
+        laws = [[FIG_5], [FIG_5, "--device", BOARD], [FIG_5, "--device", PANTOGRAPH, "--decomposition", "2.5"],
+                [PAPER / "maxwell_slip_ten.json", "--device", PANTOGRAPH],
                 [PAPER / "virtual_wall.json", "--device", BOARD], ["loops.json", "--device", PANTOGRAPH],
                 [SOURCE / "networks/tunable/second_order_maxwell_tunable.json", "--device", PANTOGRAPH]]
         for i, law in enumerate(laws):
@@ -552,7 +613,8 @@ class Verify(CommandTest):
                     gain = told["passivity"]["quantisation_gain"]
                     self.assertGreater(gain, 0)
                     told["passivity"]["quantisation_gain"] = gain and wrong and gain * wrong
-                    self.assertIn("quantisation", self.verify(header, json.dumps(told), f"gain_{i}", INPUT_REFUSED).stderr)
+                    self.assertIn("quantisation", self.verify(header, json.dumps(told), f"gain_{i}",
+                                                              INPUT_REFUSED).stderr)
 
     def test_numbers_of_which_nothing_follows(self):
         """Fails if a header or certificate of absurd numbers ends `verify` by itself, in place of a refusal."""
@@ -582,50 +644,57 @@ class Verify(CommandTest):
     def test_one_network_a_certificate(self):
         """Fails if a certificate is written that speaks of the last of several networks only."""
         self.write("kelvin.json", KELVIN)
-        self.refused("compile", "kelvin.json", FIG_5, "--certificate", "c.json", code="certificate-of-several", status=2)
+        self.refused("compile", "kelvin.json", FIG_5, "--certificate", "c.json", code="certificate-of-several",
+                     status=2)
 
 
 class Certified(CommandTest):
     def test_missing_damping_is_refused_with_what_would_do(self):
-        """Fails if a law that its device cannot hold is written without being asked for, or without a remedy, or if `check` takes it."""
+        """Fails if a law that its device cannot hold is written without being asked for, or without a remedy, or if
+        `check` takes it."""
         self.write("kelvin.json", KELVIN)
         single = SOURCE / "runtime/devices/phantom_single_motor.json"
         done = self.refused("compile", "kelvin.json", "--device", single, code="not-certified")
         for remedy in ["a brake of", "of its stiffness and damping would do", "--uncertified"]:
             self.assertIn(remedy, done.stderr)
         self.assertEqual(self.files(), ["kelvin.json"])
-        self.assertEqual(self.refused("check", "kelvin.json", "--device", single, code="not-certified").stderr, done.stderr)
+        self.assertEqual(self.refused("check", "kelvin.json", "--device", single, code="not-certified").stderr,
+                         done.stderr)
         self.assertEqual(self.files(), ["kelvin.json"])
         self.dashpot("compile", "kelvin.json", "--device", single, "--uncertified")
         self.assertIn("passivity: not certified", (self.folder / "kelvin.hpp").read_text())
 
     def test_every_law_without_a_certificate_is_warned_of(self):
-        """Fails if a law that is not certified is written without a word, on a device or without one, asked for or not, or without the
-        number that is missing."""
+        """Fails if a law that is not certified is written without a word, on a device or without one, asked for or not,
+        or without the number that is missing."""
         self.write("spring.json", network('{ "spring": 3000 }', "spring"))
         self.write("kelvin.json", KELVIN)
         single = SOURCE / "runtime/devices/phantom_single_motor.json"
         told = self.dashpot("compile", "spring.json").stderr
         self.assertIn("[lacks-damping]", told)
         self.assertIn("on an ideal device: 1.5 N s/m of damping are needed, at least 0 is there, 1.5 is missing", told)
-        told = self.dashpot("compile", "kelvin.json", "--device", single, "--uncertified", "--certificate", "c.json").stderr
+        told = self.dashpot("compile", "kelvin.json", "--device", single, "--uncertified", "--certificate",
+                            "c.json").stderr
         self.assertIn("[lacks-damping]", told)
         passivity = json.loads((self.folder / "c.json").read_text())["passivity"]
         missing = float(re.search(r"(\S+) is missing", told).group(1))
         self.assertAlmostEqual(missing / (passivity["needed_damping"] - passivity["assured_damping"]), 1, delta=1e-5)
         self.write("touch.json", network('{ "spring": 500 }', "touch", '"contact": { "at": 0 },'))
         told = self.dashpot("compile", "touch.json", "--device", BOARD).stderr
-        self.assertRegex(told, r"leaves a free tool alone.*; \S+ N s/m of damping are needed, at least \S+ is there, \S+ is missing \[nothing-proved\]")
+        self.assertRegex(told, r"leaves a free tool alone.*; \S+ N s/m of damping are needed, at least \S+ is there, "
+                         r"\S+ is missing \[nothing-proved\]")
         self.assertEqual(self.dashpot("check", "touch.json", "--device", BOARD).stderr, told)
         self.assertEqual(self.dashpot("compile", "kelvin.json").stderr, "")
 
     def test_every_remedy_as_it_is_told(self):
-        """Fails if a brake, a share, a rate, a jitter or an estimator that is said to do would not, typed as it is printed: for a linear network, one with a slip at
-        the tool, and one whose brake follows its slip."""
+        """Fails if a brake, a share, a rate, a jitter or an estimator that is said to do would not, typed as it is
+        printed: for a linear network, one with a slip at the tool, and one whose brake follows its slip."""
         skin = ["parallel", ["spring", 400], ["damper", 3]]
         muscle = [["spring", 900], ["series", ["damper", 12], ["spring", 600]]]
-        layers = {"linear": ["series", skin, ["parallel", *muscle]], "following": ["series", skin, ["parallel", *muscle, ["slip", 0.3]]],
-                  "rubbing": ["parallel", ["spring", 300], ["series", ["damper", 2], ["spring", 150]], ["series", ["slip", 0.5], ["spring", 800]]]}
+        layers = {"linear": ["series", skin, ["parallel", *muscle]],
+                  "following": ["series", skin, ["parallel", *muscle, ["slip", 0.3]]],
+                  "rubbing": ["parallel", ["spring", 300], ["series", ["damper", 2], ["spring", 150]],
+                              ["series", ["slip", 0.5], ["spring", 800]]]}
 
         def written(tree, share):
             kind, *inside = tree
@@ -641,7 +710,8 @@ class Certified(CommandTest):
             if estimator: device["velocity"] = json.loads(f"{{{estimator}}}")
             self.write("device.json", json.dumps(device))
             self.write("layers.json", network(json.dumps(written(layers[name], share)), "layers"))
-            return self.dashpot("compile", "layers.json", "--device", "device.json", "--decomposition", "paper", status=status).stderr
+            return self.dashpot("compile", "layers.json", "--device", "device.json", "--decomposition", "paper",
+                                status=status).stderr
 
         found = set()
         more = os.environ.get("DASHPOT_LONG") == "1"
@@ -652,13 +722,17 @@ class Certified(CommandTest):
                 with self.subTest(name=name, brake=brake):
                     told = refusal(name, brake=brake, status=INPUT_REFUSED)
                     self.assertIn("[not-certified]", told)
-                    needs, gives = re.search(r"needs (\S+) N s/m of damping on device '.*', which gives at least (\S+) ", told).groups()
+                    needs, gives = re.search(
+                        r"needs (\S+) N s/m of damping on device '.*', which gives at least (\S+) ", told).groups()
                     self.assertLessEqual(float(gives), float(needs))
-                    for kind, words in {"brake": r"a brake of (\S+ N s/m) at the tool", "share": r"with (\S+) of its stiffness", "rate": r"a loop at (\S+ Hz) would",
-                                        "jitter": r'"jitter": "(\S+ ms)" in', "estimator": r'would do: "velocity": \{ (.*) \} in'}.items():
+                    for kind, words in {"brake": r"a brake of (\S+ N s/m) at the tool",
+                                        "share": r"with (\S+) of its stiffness", "rate": r"a loop at (\S+ Hz) would",
+                                        "jitter": r'"jitter": "(\S+ ms)" in',
+                                        "estimator": r'would do: "velocity": \{ (.*) \} in'}.items():
                         if remedy := re.search(words, told):
                             found.add((name, kind))
-                            refusal(name, **({"brake": brake} | {kind: float(remedy.group(1)) if kind == "share" else remedy.group(1)}))
+                            refusal(name, **({"brake": brake} | {kind: float(remedy.group(1)) if kind == "share"
+                                                                 else remedy.group(1)}))
         # Where the brake follows its slip, the slip leaves it the room that the proof needs.
         for brake in ["5 N s/m", "7 N s/m", "7.17 N s/m"]: refusal("following", brake=brake)
         self.assertLessEqual({"brake", "share", "rate"}, {kind for _, kind in found})
@@ -666,8 +740,8 @@ class Certified(CommandTest):
         self.assertEqual({name for name, kind in found if kind == "brake"}, {"following", "rubbing"})
 
     def test_what_is_not_written_by_default_is_written_by_no_other_choice(self):
-        """Fails if the default choice, which uses what a brake has to its end, is refused where a choice with less damping is
-        certified: the proof needs a little more than the search has asked for."""
+        """Fails if the default choice, which uses what a brake has to its end, is refused where a choice with less
+        damping is certified: the proof needs a little more than the search has asked for."""
         compiled = 0
         stiffnesses = [500, 700, 1000, 1500, 2000, 3000, 4000, 4500, 5000, 5500, 6000, 6500, 7000]
         for device in ["pantograph_brake_2009", "phantom_shorted_motor"]:
@@ -693,7 +767,8 @@ class Certified(CommandTest):
         arm["brake"]["max_damping"] = re.search(r'"max_damping": "(\S+ N m s/rad)" in "brake"', told).group(1)
         self.assertEqual(compiled(arm, hard), "")
 
-        wall = self.write("wall.json", network('{ "parallel": [ { "spring": 600 }, { "damper": 2 } ] }', "wall", '"contact": { "at": 0 },'))
+        wall = self.write("wall.json", network('{ "parallel": [ { "spring": 600 }, { "damper": 2 } ] }', "wall",
+                                               '"contact": { "at": 0 },'))
         tip = json.loads((SOURCE / "runtime/devices/phantom_shorted_motor.json").read_text())
         told = compiled(tip, wall)
         self.assertIn("[nothing-proved]", told)
@@ -707,12 +782,13 @@ class Certified(CommandTest):
         tip["mechanics"]["damping"] = damping
         self.assertEqual(codes(compiled(tip, wall)), ["felt-error"])
         tip["motor"]["amplifier_lag"] = "0.2 ms"
-        self.assertIn('note: the same device would do with no "amplifier_lag" in its file; what is felt would err by up to ',
-                      compiled(tip, wall))
+        self.assertIn(
+            'note: the same device would do with no "amplifier_lag" in its file; what is felt would err by up to ',
+            compiled(tip, wall))
 
     def test_a_loop_that_is_not_late_as_a_remedy(self):
-        """Fails if a refusal does not say what a loop that is not late would do, in the order of what is felt, or does not say that all it
-        has to offer ruins the feel, or offers what does beside what does not."""
+        """Fails if a refusal does not say what a loop that is not late would do, in the order of what is felt, or does
+        not say that all it has to offer ruins the feel, or offers what does beside what does not."""
         net = self.write("late.json", network('{ "parallel": [ { "spring": 2500 }, { "damper": 4 } ] }', "late"))
 
         def told(status=0, **loop):
@@ -720,7 +796,8 @@ class Certified(CommandTest):
                       "velocity": {"estimator": "backward_difference", "window": 4}, "motor": {},
                       "brake": {"kind": "eddy_current", "max_damping": "3 N s/m"}, "mechanics": {"inertia": "0.2 kg"}}
             self.write("device.json", json.dumps(device))
-            return self.dashpot("compile", net, "--device", "device.json", "--decomposition", "virtual", "-o", "out", status=status).stderr
+            return self.dashpot("compile", net, "--device", "device.json", "--decomposition", "virtual", "-o", "out",
+                                status=status).stderr
 
         refused = told(INPUT_REFUSED, delay_samples=3)
         self.assertIn('the same device would do with no "delay_samples" in its file', refused)
@@ -754,8 +831,8 @@ class Certified(CommandTest):
         self.dashpot(*law)
 
     def test_what_would_do_for_tunables(self):
-        """Fails if a box that its device cannot hold is refused without a brake, a share and a rate that would do, or if one of them
-        would not."""
+        """Fails if a box that its device cannot hold is refused without a brake, a share and a rate that would do, or
+        if one of them would not."""
         elements = """{"spring": "k", "nodes": ["tool", "p"]}, {"damper": "b", "nodes": ["p", "ground"]}, {"spring": SCALE, "nodes": ["tool", "ground"]}"""
         box = """{"k": {"value": FIRST, "min": 0, "max": SECOND, "tunable": true}, "b": {"value": THIRD, "min": 0, "max": FOURTH, "tunable": true}}"""
 
@@ -771,7 +848,8 @@ class Certified(CommandTest):
         written(1)
         done = self.refused("compile", "tuned.json", "--device", "punctual.json", code="not-certified").stderr
         brake, unit = re.search(r"a brake of ([0-9.e+]+) (N s/m) at the tool", done).groups()
-        share, rate = [float(re.search(words, done).group(1)) for words in (r"with ([0-9.e-]+) of its stiffness", r"a loop at ([0-9.e+]+) Hz")]
+        share, rate = [float(re.search(words, done).group(1))
+                       for words in (r"with ([0-9.e-]+) of its stiffness", r"a loop at ([0-9.e+]+) Hz")]
         told = json.loads(json.dumps(punctual))
         told["brake"]["max_damping"] = f"{float(brake) * 1.001} {unit}"
         self.write("stronger.json", json.dumps(told))

@@ -19,21 +19,27 @@ CASES = ROOT / "tests/diagnostics/cases"
 
 BEYOND_THE_SCHEMAS = {
     # devices: values and units
-    "devices/band_reversed", "devices/coil_lag_below_the_band", "devices/damping_at_the_tool", "devices/jitter_of_a_period",
+    "devices/band_reversed", "devices/coil_lag_below_the_band", "devices/damping_at_the_tool",
+    "devices/jitter_of_a_period",
     "devices/limit_as_a_current", "devices/brake_safe_damping_too_large", "devices/brake_unit_of_the_other_motion",
     "devices/estimator_cutoff_above_nyquist", "devices/estimator_without_encoder_step",
-    "devices/rate_is_a_period", "devices/units_run_together", "devices/write_after_a_period", "devices/write_delay_reversed",
+    "devices/rate_is_a_period", "devices/units_run_together", "devices/write_after_a_period",
+    "devices/write_delay_reversed",
     # two axes: geometry and physics
-    "axes_field_gives_power", "axes_grid_falls", "axes_grid_uneven", "axes_map_radius_of_zero", "axes_port_twice", "axes_tunable",
-    "devices/axes_arm_out_of_reach", "devices/axes_arm_singular", "devices/axes_brakes_parallel", "devices/axes_motion_of_serial",
+    "axes_field_gives_power", "axes_grid_falls", "axes_grid_uneven", "axes_map_radius_of_zero", "axes_port_twice",
+    "axes_tunable",
+    "devices/axes_arm_out_of_reach", "devices/axes_arm_singular", "devices/axes_brakes_parallel",
+    "devices/axes_motion_of_serial",
     # several ports: what is true of all of them
     "ports_of_one_name", "ports_with_a_tunable", "ports_with_bad_parameters",
     # names
-    "ends_are_called_tip_and_gnd", "ground_is_called_gnd", "name_is_a_keyword", "name_of_a_member", "name_taken", "node_differs_by_case",
+    "ends_are_called_tip_and_gnd", "ground_is_called_gnd", "name_is_a_keyword", "name_of_a_member", "name_taken",
+    "node_differs_by_case",
     # JSON that Python reads all the same
     "key_given_three_times", "key_given_twice", "levels_too_many", "number_too_large",
     # parameters
-    "expression_of_an_element", "unit_run_together_with_its_exponent", "parameter_negative", "parameter_of_two_meanings", "parameter_of_wrong_unit", "parameter_unknown",
+    "expression_of_an_element", "unit_run_together_with_its_exponent", "parameter_negative",
+    "parameter_of_two_meanings", "parameter_of_wrong_unit", "parameter_unknown",
     "parameter_unused", "tunable_contact", "tunable_out_of_range", "tunable_range_negative",
     "tunable_range_of_another_unit", "tunable_range_reversed",
     # expressions, springpots and Prony series: what they mean
@@ -44,16 +50,20 @@ BEYOND_THE_SCHEMAS = {
     "expression_with_exponential_of_length", "expression_with_logarithm_of_zero", "expression_with_open_bracket",
     "expression_with_root_of_negative", "expression_with_root_without_unit", "expression_with_stray_bracket",
     "expression_without_product_sign", "prony_time_of_zero", "prony_weights_above_one",
-    "static_power_below_one", "static_power_with_unit", "static_force_of_zero", "static_rate_negative", "static_table_starts_elsewhere",
+    "static_power_below_one", "static_power_with_unit", "static_force_of_zero", "static_rate_negative",
+    "static_table_starts_elsewhere",
     "static_table_goes_back", "static_table_softens", "static_at_tunable",
     "springpot_band_at_zero", "springpot_band_reversed", "springpot_band_too_wide", "springpot_beyond_a_double",
     "springpot_beyond_its_band", "springpot_error_too_small",
     "springpot_exponent_above_one", "springpot_exponent_of_damper", "springpot_exponent_of_spring", "springpot_of_zero",
     "springpot_time_of_zero", "springpot_tunable", "springpot_without_band",
     # values and units
-    "element_of_value_zero", "quantity_not_finite", "quantity_without_number", "quantity_too_large", "quantity_too_small",
-    "unit_behind_an_escape", "unit_in_small_letters", "unit_malformed", "unit_of_another_element", "unit_of_the_other_motion",
-    "unit_read_in_two_ways", "unit_run_together", "unit_unknown", "unit_without_a_name", "unit_with_percent", "unit_without_radian",
+    "element_of_value_zero", "quantity_not_finite", "quantity_without_number", "quantity_too_large",
+    "quantity_too_small",
+    "unit_behind_an_escape", "unit_in_small_letters", "unit_malformed", "unit_of_another_element",
+    "unit_of_the_other_motion",
+    "unit_read_in_two_ways", "unit_run_together", "unit_unknown", "unit_without_a_name", "unit_with_percent",
+    "unit_without_radian",
     "valid_range_of_wrong_unit", "valid_range_reversed", "yield_zero",
     # connections
     "ends_of_an_element_equal", "ground_unused", "loop_beside_the_path", "node_used_once",

@@ -23,10 +23,11 @@ PERIOD = 0.001
 
 # Networks, options, and what they are called here.
 LAWS = {"linear": ("paper/second_order_maxwell", []), "narrow": ("paper/second_order_maxwell", ["--scalar", "float"]),
-        "slips": ("paper/visco_elasto_plastic", []), "turning": ("TURNING", []), "tunable": ("tunable/standard_solid_tunable", []),
+        "slips": ("paper/visco_elasto_plastic", []), "turning": ("TURNING", []),
+        "tunable": ("tunable/standard_solid_tunable", []),
         "rubbing": ("tunable/friction_tunable", ["--scalar", "float"])}
-TURNING = '{ "dashpot": 1, "name": "turning", "motion": "rotation", "network": { "parallel": [ { "spring": "2 N m/rad" }, ' \
-          '{ "damper": "0.1 N m s/rad" } ] } }'
+TURNING = '{ "dashpot": 1, "name": "turning", "motion": "rotation", ' \
+          '"network": { "parallel": [ { "spring": "2 N m/rad" }, { "damper": "0.1 N m s/rad" } ] } }'
 
 
 def ran(*command, status=0, **more):
@@ -62,7 +63,8 @@ class Units(unittest.TestCase):
         for name, (network, options) in LAWS.items():
             for version in (2, 3):
                 target = cls.folder / f"{name}{version}"
-                ran(DASHPOT, "compile", cls.network(network), "--name", name, "--target", f"fmi{version}", *options, "-o", target)
+                ran(DASHPOT, "compile", cls.network(network), "--name", name, "--target", f"fmi{version}", *options,
+                    "-o", target)
                 cls.units[name, version] = Fmu(target / f"{name}.fmu", target / "unpacked")
 
     @classmethod
@@ -108,7 +110,8 @@ class Units(unittest.TestCase):
         network, options = LAWS[name]
         file = self.folder / "motion.csv"
         file.write_text(",".join(["time", "position", "velocity", *values]) + "\n" + "".join(
-            ",".join(map(repr, [k * PERIOD, u, v, *(column[k] for column in values.values())])) + "\n" for k, (u, v) in enumerate(rows)))
+            ",".join(map(repr, [k * PERIOD, u, v, *(column[k] for column in values.values())])) + "\n"
+            for k, (u, v) in enumerate(rows)))
         ran(DASHPOT, "simulate", self.network(network), "--input", file, "-o", self.folder / "simulated.csv", *options)
         lines = [line.split(",") for line in (self.folder / "simulated.csv").read_text().splitlines()]
         columns = [lines[0].index(column) for column in ("damping", "motor_force")]
@@ -142,7 +145,8 @@ class Units(unittest.TestCase):
                 self.assertEqual(self.played(self.started(fmu), rows), self.simulated(path.stem, rows, {}), path.stem)
 
     def test_exports_the_standard_and_needs_no_heap(self):
-        """Fails if a function of the standard is missing or another is there, or the library needs more than memcpy and memset."""
+        """Fails if a function of the standard is missing or another is there, or the library needs more than memcpy and
+        memset."""
         for name, fmu in self.each_unit():
             lines = [line.split() for line in ran("nm", "-D", fmu.library_path).splitlines()]
             self.assertEqual({words[-1] for words in lines if words[-2] in "TBDR"}, FUNCTIONS[fmu.version])
@@ -181,16 +185,19 @@ class Units(unittest.TestCase):
             root = self.units["turning", version].description
             powers = {unit.get("name"): dict(unit[0].items()) for unit in root.iter("Unit")}
             self.assertEqual(powers, {"s": {"s": "1"}, "rad": {"rad": "1"}, "rad/s": {"rad": "1", "s": "-1"},
-                                      "N m": {"kg": "1", "m": "2", "s": "-2"}, "N m s/rad": {"kg": "1", "m": "2", "s": "-1", "rad": "-1"}})
+                                      "N m": {"kg": "1", "m": "2", "s": "-2"},
+                                      "N m s/rad": {"kg": "1", "m": "2", "s": "-1", "rad": "-1"}})
 
     def test_steps(self):
-        """Fails if a step that is no multiple of the period or begins elsewhere passes, or a refused one moves anything."""
+        """Fails if a step that is no multiple of the period or begins elsewhere passes, or a refused one moves
+        anything."""
         rows = motion()[:20]
         for name, fmu in self.each_unit():
             unit, other = self.started(fmu), self.started(fmu)
             self.played(unit, rows), self.played(other, rows)
             before = unit.get("damping", "force", "time")
-            for now, length in [(0.02, 0.00037), (0.02, 0.0015), (0.02, 0.0), (0.02, -0.001), (0.02, float("nan")), (0.02, float("inf")),
+            for now, length in [(0.02, 0.00037), (0.02, 0.0015), (0.02, 0.0), (0.02, -0.001), (0.02, float("nan")),
+                                (0.02, float("inf")),
                                 (0.019, 0.001), (0.021, 0.001), (float("nan"), 0.001), (-1.0, 0.001)]:
                 self.assertEqual(unit.step(now, length), ERROR, (now, length))
             self.assertIn("a step is a multiple of the period of the law, which is 0.001 s", unit.said[0][2])
@@ -210,7 +217,8 @@ class Units(unittest.TestCase):
             now += length
 
     def test_states(self):
-        """Fails if a state that is gone back to, or one that was written and read, goes on otherwise, or a foreign one is taken."""
+        """Fails if a state that is gone back to, or one that was written and read, goes on otherwise, or a foreign one
+        is taken."""
         rows = motion()[:60]
         for name, fmu in self.each_unit():
             unit = self.started(fmu)
@@ -242,7 +250,8 @@ class Units(unittest.TestCase):
     def test_derivatives(self):
         """Fails if a linear law's derivatives are not its slopes, or others claim to have some."""
         for name, fmu in self.each_unit():
-            attribute = fmu.description.find("CoSimulation").get("providesDirectionalDerivative" + "s" * (fmu.version == 3))
+            attribute = fmu.description.find("CoSimulation").get("providesDirectionalDerivative" +
+                                                                 "s" * (fmu.version == 3))
             unit = self.started(fmu)
             self.played(unit, motion()[:25])
             if name in ("slips", "tunable", "rubbing"):
@@ -269,7 +278,8 @@ class Units(unittest.TestCase):
             self.assertEqual(unit.derivatives(["force"], ["force"], [1.0]), ERROR)
 
     def test_parameters(self):
-        """Fails if a parameter is taken beyond its range, what is refused moves one, or one that is set before the start comes late."""
+        """Fails if a parameter is taken beyond its range, what is refused moves one, or one that is set before the
+        start comes late."""
         for version in (2, 3):
             unit = self.instance(self.units["tunable", version])
             self.assertEqual((unit.get("K1"), unit.set(K1=300.0), unit.get("K1")), ((200,), OK, (300,)))
@@ -301,7 +311,8 @@ class Units(unittest.TestCase):
             self.assertEqual(unit.call("ExitInitializationMode"), OK)
             self.assertEqual(unit.get("force"), at_rest[:1])
             self.assertEqual(unit.set(position=float("nan")), ERROR)
-            self.assertEqual(unit.call("SetFloat64" if fmu.version == 3 else "SetReal", *unit.which(["force"]), (ctypes.c_double * 1)(1),
+            self.assertEqual(unit.call("SetFloat64" if fmu.version == 3 else "SetReal", *unit.which(["force"]),
+                                       (ctypes.c_double * 1)(1),
                                        *[ctypes.c_size_t(1)] * (fmu.version == 3)), ERROR)
             self.assertEqual(unit.get(99), ERROR)
             self.assertEqual(unit.step(2.0, PERIOD), OK)
@@ -309,7 +320,8 @@ class Units(unittest.TestCase):
             none = (unit.which([])[0], ctypes.c_size_t(0), None) + (ctypes.c_size_t(0),) * (fmu.version == 3)
             one = unit.which([1]) + (ctypes.create_string_buffer(8),) + (ctypes.c_size_t(1),) * (fmu.version == 3)
             kind = "Int32" if fmu.version == 3 else "Integer"
-            self.assertEqual([unit.call(f"Get{kind}", *none), unit.call(f"Get{kind}", *one), unit.call(f"Set{kind}", *one)], [OK, ERROR, ERROR])
+            self.assertEqual([unit.call(f"Get{kind}", *none), unit.call(f"Get{kind}", *one),
+                              unit.call(f"Set{kind}", *one)], [OK, ERROR, ERROR])
             self.assertEqual(unit.call("EnterEventMode"), ERROR)
             self.assertEqual(unit.call("Terminate"), OK)
             self.assertEqual(unit.step(2.0 + PERIOD, PERIOD), ERROR)
@@ -335,8 +347,8 @@ class Units(unittest.TestCase):
                     one.free()
 
     def test_the_source_inside(self):
-        """Fails if the source in the archive does not compile where the strictest read it, or makes a library of other bits, also
-        where multiplications and additions can be one."""
+        """Fails if the source in the archive does not compile where the strictest read it, or makes a library of other
+        bits, also where multiplications and additions can be one."""
         strict = "-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -O2 -fPIC -shared".split()
         strict += ["-Wno-unused-function", "-Wno-unused-const-variable"]  # what is for others in the law's header
         rows = motion()[:300]
@@ -358,16 +370,21 @@ class Units(unittest.TestCase):
     def test_equal_input_gives_equal_bytes(self):
         """Fails if an archive depends on when or where it was made."""
         for version in (2, 3):
-            ran(DASHPOT, "compile", self.network("paper/second_order_maxwell"), "--name", "linear", "--target", f"fmi{version}", "-o",
+            ran(DASHPOT, "compile", self.network("paper/second_order_maxwell"), "--name", "linear", "--target",
+                f"fmi{version}", "-o",
                 self.folder / "again", env={**os.environ, "TZ": "Asia/Tokyo"})
-            self.assertEqual((self.folder / "again/linear.fmu").read_bytes(), (self.folder / f"linear{version}/linear.fmu").read_bytes())
+            self.assertEqual((self.folder / "again/linear.fmu").read_bytes(),
+                             (self.folder / f"linear{version}/linear.fmu").read_bytes())
 
     def test_what_cannot_be_made(self):
-        """Fails if a compiler that is missing or fails, or a folder that cannot be written to, leaves a file or no reason."""
+        """Fails if a compiler that is missing or fails, or a folder that cannot be written to, leaves a file or no
+        reason."""
         for version in (2, 3):
-            command = [DASHPOT, "compile", self.network("paper/second_order_maxwell"), "--target", f"fmi{version}", "-o", self.folder / "none"]
+            command = [DASHPOT, "compile", self.network("paper/second_order_maxwell"), "--target", f"fmi{version}",
+                       "-o", self.folder / "none"]
             told = ran(*command, status=1, env={**os.environ, "CC": "no-such-compiler"})
-            self.assertIn("'no-such-compiler' does not compile the emitted code: cannot be started [system-compiler-failed]", told)
+            self.assertIn("'no-such-compiler' does not compile the emitted code: cannot be started "
+                          "[system-compiler-failed]", told)
             self.assertIn("[system-compiler-failed]", ran(*command, status=1, env={**os.environ, "CC": "false"}))
             self.assertFalse((self.folder / "none").exists())
             told = ran(*command[:-1], "/dev/null/none", status=1)

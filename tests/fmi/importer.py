@@ -1,4 +1,5 @@
-"""A small importer of FMI 2.0 and 3.0 units for co-simulation: unpacks, loads the shared library with dlopen, plays it."""
+"""A small importer of FMI 2.0 and 3.0 units for co-simulation: unpacks, loads the shared library with dlopen, plays
+it."""
 import ctypes
 import pathlib
 import platform
@@ -12,7 +13,8 @@ LOG2 = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int, ct
 
 
 class Callbacks2(ctypes.Structure):
-    _fields_ = [("logger", LOG2), ("allocate", ctypes.c_void_p), ("free", ctypes.c_void_p), ("finished", ctypes.c_void_p),
+    _fields_ = [("logger", LOG2), ("allocate", ctypes.c_void_p), ("free", ctypes.c_void_p),
+                ("finished", ctypes.c_void_p),
                 ("environment", ctypes.c_void_p)]
 
 
@@ -52,19 +54,23 @@ class Instance:
         token = (fmu.token if token is None else token).encode()
         library = fmu.library
         if fmu.version == 3:
-            self.log = LOG3(lambda environment, status, category, message: self.said.append((status, category, message.decode())))
+            self.log = LOG3(lambda environment, status, category, message: self.said.append(
+                (status, category, message.decode())))
             create = getattr(library, f"fmi3Instantiate{kind}")
             create.restype = ctypes.c_void_p
             head = (b"one", token, None, ctypes.c_bool(False), ctypes.c_bool(True))
             tail = (None, self.log, None, None, None)
-            between = (ctypes.c_bool(False), ctypes.c_bool(False), None, ctypes.c_size_t(0)) if kind == "CoSimulation" else ()
+            between = (ctypes.c_bool(False), ctypes.c_bool(False), None,
+                       ctypes.c_size_t(0)) if kind == "CoSimulation" else ()
             self.pointer = create(*head, *between, *tail)
         else:
-            self.log = LOG2(lambda environment, name, status, category, message: self.said.append((status, category, message.decode())))
+            self.log = LOG2(lambda environment, name, status, category, message: self.said.append(
+                (status, category, message.decode())))
             self.callbacks = Callbacks2(self.log, None, None, None, None)
             create = library.fmi2Instantiate
             create.restype = ctypes.c_void_p
-            self.pointer = create(b"one", 1 if kind == "CoSimulation" else 0, token, None, ctypes.byref(self.callbacks), 0, 1)
+            self.pointer = create(b"one", 1 if kind == "CoSimulation" else 0, token, None, ctypes.byref(self.callbacks),
+                                  0, 1)
 
     def call(self, name, *arguments):
         return self.fmu.call(name, ctypes.c_void_p(self.pointer), *arguments)
@@ -87,11 +93,13 @@ class Instance:
         return self.call("SetupExperiment", 0, f(0), f(start), 0, f(0)) or self.call("EnterInitializationMode")
 
     def which(self, names):
-        return numbers([self.fmu.references[n] if isinstance(n, str) else n for n in names], ctypes.c_uint32), ctypes.c_size_t(len(names))
+        return numbers([self.fmu.references[n] if isinstance(n, str) else n for n in names],
+                       ctypes.c_uint32), ctypes.c_size_t(len(names))
 
     def set(self, **values):
         tail = (ctypes.c_size_t(len(values)),) if self.fmu.version == 3 else ()
-        return self.call("SetFloat64" if self.fmu.version == 3 else "SetReal", *self.which(values), numbers(values.values()), *tail)
+        return self.call("SetFloat64" if self.fmu.version == 3 else "SetReal", *self.which(values),
+                         numbers(values.values()), *tail)
 
     def get(self, *names):
         found = numbers([0.0] * len(names))
@@ -105,7 +113,8 @@ class Instance:
             return self.call("DoStep", f(now), f(length), 1)
         flags = [ctypes.c_bool(True) for _ in range(3)]
         last = f(-1)
-        status = self.call("DoStep", f(now), f(length), ctypes.c_bool(True), *map(ctypes.byref, flags), ctypes.byref(last))
+        status = self.call("DoStep", f(now), f(length), ctypes.c_bool(True), *map(ctypes.byref, flags),
+                           ctypes.byref(last))
         assert status != OK or not any(flag.value for flag in flags)
         self.last_time = last.value
         return status
@@ -117,5 +126,6 @@ class Instance:
         found = numbers([0.0] * len(unknowns))
         three = self.fmu.version == 3
         sizes = [(ctypes.c_size_t(n),) if three else () for n in (len(seed), len(unknowns))]
-        status = self.call("GetDirectionalDerivative", *self.which(unknowns), *self.which(knowns), numbers(seed), *sizes[0], found, *sizes[1])
+        status = self.call("GetDirectionalDerivative", *self.which(unknowns), *self.which(knowns), numbers(seed),
+                           *sizes[0], found, *sizes[1])
         return tuple(found) if status == OK else status

@@ -1,4 +1,5 @@
-"""What the FMI standard (fmi-standard.org, versions 2.0.5 and 3.0.2) asks of a unit for co-simulation, as far as ours could break it."""
+"""What the FMI standard (fmi-standard.org, versions 2.0.5 and 3.0.2) asks of a unit for co-simulation, as far as ours
+could break it."""
 import re
 
 # Every function, by section: a unit exports all of them, whatever it is for.
@@ -26,7 +27,8 @@ FUNCTIONS = {
 }
 assert len(FUNCTIONS[3]) == 75 and len(FUNCTIONS[2]) == 44
 
-# Element: (attributes it must have, others it may have, children in this order). Of the schemas, what a unit of ours can contain.
+# Element: (attributes it must have, others it may have, children in this order). Of the schemas, what a unit of ours
+# can contain.
 UNITS = {
     "UnitDefinitions": ("", "", "Unit"), "Unit": ("name", "", "BaseUnit DisplayUnit"),
     "BaseUnit": ("", "kg m s A K mol cd rad factor offset", ""),
@@ -34,38 +36,51 @@ UNITS = {
     "DefaultExperiment": ("", "startTime stopTime tolerance stepSize", "")}
 SCHEMAS = {
     3: UNITS | {
-        "fmiModelDescription": ("fmiVersion modelName instantiationToken", "description author version copyright license generationTool "
+        "fmiModelDescription": ("fmiVersion modelName instantiationToken",
+                                "description author version copyright license generationTool "
                                 "generationDateAndTime variableNamingConvention",
-                                "CoSimulation UnitDefinitions LogCategories DefaultExperiment ModelVariables ModelStructure"),
-        "CoSimulation": ("modelIdentifier", "needsExecutionTool canBeInstantiatedOnlyOncePerProcess canGetAndSetFMUState "
-                         "canSerializeFMUState providesDirectionalDerivatives providesAdjointDerivatives providesPerElementDependencies "
+                                "CoSimulation UnitDefinitions LogCategories DefaultExperiment ModelVariables "
+                                "ModelStructure"),
+        "CoSimulation": ("modelIdentifier",
+                         "needsExecutionTool canBeInstantiatedOnlyOncePerProcess canGetAndSetFMUState "
+                         "canSerializeFMUState providesDirectionalDerivatives providesAdjointDerivatives "
+                         "providesPerElementDependencies "
                          "canHandleVariableCommunicationStepSize fixedInternalStepSize maxOutputDerivativeOrder "
                          "recommendedIntermediateInputSmoothness providesIntermediateUpdate mightReturnEarlyFromDoStep "
                          "canReturnEarlyAfterIntermediateUpdate hasEventMode providesEvaluateDiscreteStates", ""),
         "ModelVariables": ("", "", "Float64"),
-        "Float64": ("name valueReference", "description causality variability initial start min max nominal unit displayUnit "
-                    "declaredType derivative reinit clocks previous intermediateUpdate canHandleMultipleSetPerTimeInstant", ""),
+        "Float64": ("name valueReference",
+                    "description causality variability initial start min max nominal unit displayUnit "
+                    "declaredType derivative reinit clocks previous intermediateUpdate "
+                    "canHandleMultipleSetPerTimeInstant", ""),
         "ModelStructure": ("", "", "Output InitialUnknown"),
         "Output": ("valueReference", "dependencies dependenciesKind", ""),
         "InitialUnknown": ("valueReference", "dependencies dependenciesKind", "")},
     2: UNITS | {
-        "fmiModelDescription": ("fmiVersion modelName guid", "description author version copyright license generationTool "
+        "fmiModelDescription": ("fmiVersion modelName guid",
+                                "description author version copyright license generationTool "
                                 "generationDateAndTime variableNamingConvention numberOfEventIndicators",
-                                "CoSimulation UnitDefinitions LogCategories DefaultExperiment ModelVariables ModelStructure"),
-        "CoSimulation": ("modelIdentifier", "needsExecutionTool canHandleVariableCommunicationStepSize canInterpolateInputs "
+                                "CoSimulation UnitDefinitions LogCategories DefaultExperiment ModelVariables "
+                                "ModelStructure"),
+        "CoSimulation": ("modelIdentifier",
+                         "needsExecutionTool canHandleVariableCommunicationStepSize canInterpolateInputs "
                          "maxOutputDerivativeOrder canRunAsynchronuously canBeInstantiatedOnlyOncePerProcess "
-                         "canNotUseMemoryManagementFunctions canGetAndSetFMUstate canSerializeFMUstate providesDirectionalDerivative",
+                         "canNotUseMemoryManagementFunctions canGetAndSetFMUstate canSerializeFMUstate "
+                         "providesDirectionalDerivative",
                          "SourceFiles"),
         "SourceFiles": ("", "", "File"), "File": ("name", "", ""),
         "ModelVariables": ("", "", "ScalarVariable"),
-        "ScalarVariable": ("name valueReference", "description causality variability initial canHandleMultipleSetPerTimeInstant", "Real"),
-        "Real": ("", "declaredType quantity unit displayUnit relativeQuantity min max nominal unbounded start derivative reinit", ""),
+        "ScalarVariable": ("name valueReference",
+                           "description causality variability initial canHandleMultipleSetPerTimeInstant", "Real"),
+        "Real": ("", "declaredType quantity unit displayUnit relativeQuantity min max nominal unbounded start "
+                 "derivative reinit", ""),
         "ModelStructure": ("", "", "Outputs Derivatives DiscreteStates InitialUnknowns"),
         "Outputs": ("", "", "Unknown"), "InitialUnknowns": ("", "", "Unknown"),
         "Unknown": ("index", "dependencies dependenciesKind", "")},
 }
 
-# Causality and variability that go together (FMI 3.0 table 18, FMI 2.0 section 2.2.7), with what `initial` may say and whether `start` stands there.
+# Causality and variability that go together (FMI 3.0 table 18, FMI 2.0 section 2.2.7), with what `initial` may say and
+# whether `start` stands there.
 COMBINATIONS = {("independent", "continuous"): ({None}, False), ("input", "continuous"): ({None}, True),
                 ("output", "discrete"): ({"calculated"}, False), ("parameter", "tunable"): ({"exact"}, True)}
 
@@ -109,14 +124,16 @@ def description_breaches(root):
             found.append(f"initial or start of {v.get('name')}")
         if value.get("unit") not in units:
             found.append(f"unit of {v.get('name')}")
-        if value.get("min") is not None and not float(value.get("min")) <= float(value.get("start")) <= float(value.get("max")):
+        if value.get("min") is not None and not float(value.get("min")) <= float(value.get("start")) <= float(
+            value.get("max")):
             found.append(f"start of {v.get('name')} is beyond its range")
         if kind[0] == "output":
             outputs.append(v.get("valueReference") if version == 3 else str(place + 1))
     if sum(v.get("causality") == "independent" for v in variables) != 1:
         found.append("time is not there once")
     structure = root.find("ModelStructure")
-    lists = ([e.get("valueReference") for e in structure.iter(tag)] for tag in ("Output", "InitialUnknown")) if version == 3 else (
+    lists = ([e.get("valueReference") for e in structure.iter(tag)]
+             for tag in ("Output", "InitialUnknown")) if version == 3 else (
         [e.get("index") for e in structure.iterfind(f"{tag}/Unknown")] for tag in ("Outputs", "InitialUnknowns"))
     found += ["the model structure lists other outputs" for listed in lists if listed != outputs]
     return found

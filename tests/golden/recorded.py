@@ -20,14 +20,16 @@ def shape(value):
 
 
 def one_a_shape(networks):
-    """The first network file of each shape: of the others the same is said with other numbers, and those are in generated/."""
+    """The first network file of each shape: of the others the same is said with other numbers, and those are in
+    generated/."""
     return list({shape(json.loads(path.read_text())): path for path in reversed(networks)}.values())[::-1]
 
 
 def differs(folder, name, text):
     path = folder / f"{name}.txt"
     recorded = path.read_text() if path.exists() else ""
-    diff = difflib.unified_diff(recorded.splitlines(True), text.splitlines(True), f"recorded/{path.name}", f"now/{path.name}")
+    diff = difflib.unified_diff(recorded.splitlines(True), text.splitlines(True), f"recorded/{path.name}",
+                                f"now/{path.name}")
     sys.stdout.writelines(diff)
     return text != recorded
 

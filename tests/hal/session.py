@@ -17,16 +17,18 @@ def told(*command, **more):
 
 
 class Session:
-    """With the modules NAME.so of a folder, to which it adds the program read_samples. close() takes the modules away again.
+    """With the modules NAME.so of a folder, to which it adds the program read_samples. close() takes the modules away
+    again.
 
-    Modules can be loaded from LinuxCNC's own folder only: root puts them there for the time of the session; anybody else sees a
-    folder of their own there, in a namespace.
+    Modules can be loaded from LinuxCNC's own folder only: root puts them there for the time of the session; anybody
+    else sees a folder of their own there, in a namespace.
     """
 
     def __init__(self, folder, cc, modules):
         self.folder, self.is_root, self.installed = folder, os.geteuid() == 0, []
         folder.chmod(0o777)
-        told(cc, "-DULAPI", "-D_GNU_SOURCE", "-I/usr/include/linuxcnc", READER, "-llinuxcnchal", "-o", "read_samples", cwd=folder)
+        told(cc, "-DULAPI", "-D_GNU_SOURCE", "-I/usr/include/linuxcnc", READER, "-llinuxcnchal", "-o", "read_samples",
+             cwd=folder)
         (folder / "read_samples").chmod(0o755)
         if not self.is_root:
             shutil.copytree(MODULES, folder / "modules")

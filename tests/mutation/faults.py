@@ -1,7 +1,7 @@
 """Where a fault can be planted in a C++ file of this project, and what it would look like.
 
-Kinds: an operator, a constant, a sign, a bound. Binary operators are told from templates and references by the blanks that the
-house style sets around them."""
+Kinds: an operator, a constant, a sign, a bound. Binary operators are told from templates and references by the blanks
+that the house style sets around them."""
 import dataclasses
 import pathlib
 import random
@@ -29,7 +29,8 @@ SWAPPED = {
     "operator": {" * ": " / ", " / ": " * ", " && ": " || ", " || ": " && ", " == ": " != ", " != ": " == ", "++": "--",
                  " *= ": " /= ", " |= ": " &= "},
     "sign": {" + ": " - ", " - ": " + ", " += ": " -= ", " -= ": " += "},
-    "bound": {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", "std::min": "std::max", "std::max": "std::min"},
+    "bound": {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", "std::min": "std::max",
+              "std::max": "std::min"},
 }
 NEGATION = re.compile(r"(?<=[(,=?:{] )-(?=[\w(])|(?<=[({])-(?=[\w(])|(?<=return )-(?=[\w(])|(?<=[(\s])!(?=[\w(:])")
 NUMBER = re.compile(r"(?<![\w.\"'])\d+(?:\.\d*)?(?:e[+-]?\d+)?(?:u|f)?(?![\w.\"'])")
@@ -70,7 +71,8 @@ def other_number(text):
 
 
 def drawn(root, folders, seed):
-    """All faults in the order in which they are to be planted: kinds in turn, and within a kind every place as likely."""
+    """All faults in the order in which they are to be planted: kinds in turn, and within a kind every place as
+    likely."""
     root = pathlib.Path(root)
     kinds = {}
     for folder in folders:

@@ -29,7 +29,8 @@ class Faults(unittest.TestCase):
     # If this fails, faults are planted where no test can see them.
     def test_what_is_no_code_is_left_alone(self):
         for line in ['say("a < b + 2");', "// a < b + 2", "/* a < b + 2 */", "#if A < 2", "template <int N = 2>",
-                     "static_assert(N < 2);", "std::vector<int> values;", "const int& a = f(b);", "case 'a':", "x2 = y;"]:
+                     "static_assert(N < 2);", "std::vector<int> values;", "const int& a = f(b);", "case 'a':",
+                     "x2 = y;"]:
             self.assertEqual(changes(line.replace("= y", "y")), [], line)
 
     # If this fails, a record cannot be continued, or the kinds are not planted equally often.

@@ -3,10 +3,11 @@
 
   tests/mutation/plant_faults.py --work FOLDER [--count 200] [--seed 1] [--jobs 2] [--record FILE]
 
-Works on clones of the last commit in FOLDER, one for each job, never on this tree. A fault that does not compile, or that leaves the machine code
-as it was, is no fault: the next one takes its place. Tests of the room next to the fault come first, then all others; the
-first red one ends the search. Faults that the quick tests leave open are planted again at the end, for the slow ones. What is found out
-is appended to the record, a JSON object a line, and a run that is started again goes on behind it."""
+Works on clones of the last commit in FOLDER, one for each job, never on this tree. A fault that does not compile, or
+that leaves the machine code as it was, is no fault: the next one takes its place. Tests of the room next to the fault
+come first, then all others; the first red one ends the search. Faults that the quick tests leave open are planted again
+at the end, for the slow ones. What is found out is appended to the record, a JSON object a line, and a run that is
+started again goes on behind it."""
 import argparse
 import concurrent.futures
 import dataclasses
@@ -49,11 +50,13 @@ NEAREST = {
     "runtime/devices/simulated": ["simulated_test"],
     "runtime/devices/board": ["board_test", "board_realtime_test"],
 }
-# Of all tests, those that see the compiler's whole work in a second or two; and those that compile much of what it emits, or draw.
+# Of all tests, those that see the compiler's whole work in a second or two; and those that compile much of what it
+# emits, or draw.
 FIRST = "^golden|^generated|^diagnostics|^command_line"
-SLOW = "^Agreement|^Points|^StrictCompile|^TunableEmission|^Subnormal|^Firmware|^paper|^Eva|Differential|^SlipHolds|^run_command"
-# Tests against the clock, which other work makes red; and those that build or draw everything once more, minutes each. What only
-# these would find counts as missed.
+SLOW = ("^Agreement|^Points|^StrictCompile|^TunableEmission|^Subnormal|^Firmware|^paper|^Eva|Differential|^SlipHolds|"
+        "^run_command")
+# Tests against the clock, which other work makes red; and those that build or draw everything once more, minutes each.
+# What only these would find counts as missed.
 LEFT_OUT = "RealClock|^package.In|^report.browser"
 SECONDS = 900  # no test program takes a third of it: a fault that makes one hang is found
 
@@ -70,7 +73,8 @@ class Copy:
         subprocess.run(["git", "checkout", "--quiet", "--", "."], cwd=self.folder, check=True)
 
     def prepare(self):
-        # A linker that is quick, and compiled code from a cache: most of what is built for a fault is what was built for another.
+        # A linker that is quick, and compiled code from a cache: most of what is built for a fault is what was built
+        # for another.
         quick = ["-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=gold"] if shutil.which("ld.gold") else []
         cache = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
         self.must("cmake", "--preset", "release", "-DDASHPOT_BUILD_BENCHMARKS=OFF", *quick, *cache)
@@ -88,7 +92,8 @@ class Copy:
         self.output = self.folder / "build" / "last_output"
         self.output.parent.mkdir(exist_ok=True)
         with open(self.output, "w") as output:
-            process = subprocess.Popen(command, cwd=self.folder, stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
+            process = subprocess.Popen(command, cwd=self.folder, stdout=output, stderr=subprocess.STDOUT,
+                                       start_new_session=True)
             try:
                 return process.wait(seconds) == 0
             except subprocess.TimeoutExpired:
@@ -115,7 +120,8 @@ def nearest(file):
 
 
 def first_failure(output):
-    lines = [line for line in output.read_text(errors="replace").splitlines() if "[  FAILED  ]" in line or "***" in line]
+    lines = [line for line in output.read_text(errors="replace").splitlines() if "[  FAILED  ]" in line
+             or "***" in line]
     return lines[0].strip() if lines else "ended early or late"
 
 
@@ -184,7 +190,8 @@ class Search:
 
     def next_open(self):
         with self.lock:
-            fault = next((fault for fault, verdict in self.verdicts.items() if verdict == "open" and fault not in self.planted), None)
+            fault = next((fault for fault, verdict in self.verdicts.items() if verdict == "open"
+                          and fault not in self.planted), None)
             if fault:
                 self.planted.add(fault)
             return fault
@@ -195,7 +202,8 @@ class Search:
             self.verdicts[fault] = verdict
             with open(self.record, "a") as record:
                 record.write(json.dumps({**fault.__dict__, "verdict": verdict, "by": by, "seconds": seconds}) + "\n")
-            print(f"{fault.file}:{fault.line}:{fault.column}: '{fault.before}' -> '{fault.after}': {verdict} {by}", flush=True)
+            print(f"{fault.file}:{fault.line}:{fault.column}: '{fault.before}' -> '{fault.after}': {verdict} {by}",
+                  flush=True)
 
     def run_in(self, copy, faults):
         copy.prepare()
@@ -206,12 +214,14 @@ class Search:
 
     def summary(self):
         found, missed, other = self.judged("found"), self.judged("missed"), self.judged("open")
-        return f"{found} of {found + missed + other} found, {missed} missed; {len(self.verdicts) - found - missed - other} were no faults"
+        none = len(self.verdicts) - found - missed - other
+        return f"{found} of {found + missed + other} found, {missed} missed; {none} were no faults"
 
 
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    options.add_argument("--work", required=True, type=pathlib.Path, help="folder of the clones; made where it is not there")
+    options.add_argument("--work", required=True, type=pathlib.Path,
+                         help="folder of the clones; made where it is not there")
     options.add_argument("--count", type=int, default=200)
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--jobs", type=int, default=2)

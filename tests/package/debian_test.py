@@ -1,9 +1,11 @@
-"""The package that cpack makes, installed in a root that holds the packages it depends on and nothing else, and tried there.
+"""The package that cpack makes, installed in a root that holds the packages it depends on and nothing else, and tried
+there.
 
     python3 debian_test.py [-v]
 
-The environment names what ctest knows: DASHPOT_SOURCE (this repository), DASHPOT_BUILD (where it is built), CPACK. The root is made
-of the files that the distribution's packages have on this machine, so nothing is fetched; dpkg decides whether they are enough.
+The environment names what ctest knows: DASHPOT_SOURCE (this repository), DASHPOT_BUILD (where it is built), CPACK. The
+root is made of the files that the distribution's packages have on this machine, so nothing is fetched; dpkg decides
+whether they are enough.
 """
 import os
 import pathlib
@@ -64,10 +66,12 @@ class Root:
             (self.folder / name).mkdir()
         (self.folder / "dev/null").touch()
         (self.folder / "var/lib/dpkg/available").touch()
-        (self.folder / "var/lib/dpkg/status").write_text("".join(record.strip() + "\n\n" for _, record in packages.values()))
+        (self.folder / "var/lib/dpkg/status").write_text("".join(record.strip() + "\n\n"
+                                                                 for _, record in packages.values()))
         for fields, _ in packages.values():
             lists = [f"{fields['Package']}:{fields['Architecture']}", fields["Package"]]
-            path = next(path for path in (pathlib.Path(f"/var/lib/dpkg/info/{name}.list") for name in lists) if path.exists())
+            path = next(path for path in (pathlib.Path(f"/var/lib/dpkg/info/{name}.list") for name in lists)
+                        if path.exists())
             shutil.copy(path, self.folder / "var/lib/dpkg/info")
             for file in path.read_text().splitlines():
                 self._copy(pathlib.Path(file))
@@ -97,7 +101,8 @@ class Root:
         return run(*AS_ROOT, "chroot", self.folder, *command, env={"PATH": "/usr/bin:/usr/sbin"}, **more)
 
     def files(self):
-        return {path.relative_to(self.folder) for path in self.folder.rglob("*") if not path.is_relative_to(self.folder / "var/lib/dpkg")}
+        return {path.relative_to(self.folder) for path in self.folder.rglob("*")
+                if not path.is_relative_to(self.folder / "var/lib/dpkg")}
 
 
 class Debian(unittest.TestCase):
@@ -106,12 +111,14 @@ class Debian(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="debian")
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
-        run(os.environ["CPACK"], "-G", "DEB", "-B", cls.folder / "made", "--config", BUILD / "CPackConfig.cmake", cwd=cls.folder)
+        run(os.environ["CPACK"], "-G", "DEB", "-B", cls.folder / "made", "--config", BUILD / "CPackConfig.cmake",
+            cwd=cls.folder)
         (cls.package,) = (cls.folder / "made").glob("*.deb")
         cls.about = dict(re.findall(r"^ ?([\w-]+): (.*)$", run("dpkg-deb", "--field", cls.package), re.MULTILINE))
 
     def test_package(self):
-        """Fails if the package in a root of its own lacks what it needs, does not work there, or leaves something behind."""
+        """Fails if the package in a root of its own lacks what it needs, does not work there, or leaves something
+        behind."""
         version = re.search(r"VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text().split("project(")[1])[1]
         self.assertEqual((self.about["Package"], self.about["Version"]), ("dashpot", version))
         self.assertIn("libc6", self.about["Depends"])
@@ -131,7 +138,8 @@ class Debian(unittest.TestCase):
             inside = "/" + str(network.relative_to(root.folder))
             root.within("dashpot", "compile", inside, "-o", "/tmp/out", "--certificate", "/tmp/out/certificate.json")
             header = f"/tmp/out/{network.stem}.hpp"
-            self.assertEqual((root.folder / header[1:]).read_bytes(), (SOURCE / f"generated/paper/{network.stem}.hpp").read_bytes())
+            self.assertEqual((root.folder / header[1:]).read_bytes(),
+                             (SOURCE / f"generated/paper/{network.stem}.hpp").read_bytes())
             root.within("dashpot", "verify", "/tmp/out/certificate.json", header, "--allow-uncertified")
             if network.stem in ("kelvin", "second_order_maxwell"):
                 self.assertIn("proved", root.within("dashpot-check", header, "/tmp/out/certificate.json"))
@@ -160,7 +168,8 @@ class Debian(unittest.TestCase):
         self.assertTrue(list((root.folder / "usr").rglob("dashpotConfig.cmake")))
 
     def test_what_is_missing_is_said(self):
-        """Fails if the package installs where what it depends on is not there: then the test above would say nothing."""
+        """Fails if the package installs where what it depends on is not there: then the test above would say
+        nothing."""
         packages = needed(self.about["Depends"], installed_status())
         lacking = {name: package for name, package in packages.items() if not name.startswith("libfmt")}
         self.assertLess(len(lacking), len(packages))

@@ -2,8 +2,8 @@
 
     python3 package_test.py InTree|InTreeWithCompiler|Installed|Cross [-v]
 
-The environment names what ctest knows: DASHPOT_SOURCE (this repository), DASHPOT_BUILD (where it is built), DASHPOT_PREFIX (where
-it is installed), CMAKE_COMMAND, and the compiler to use in CXX.
+The environment names what ctest knows: DASHPOT_SOURCE (this repository), DASHPOT_BUILD (where it is built),
+DASHPOT_PREFIX (where it is installed), CMAKE_COMMAND, and the compiler to use in CXX.
 """
 import json
 import os
@@ -187,7 +187,8 @@ class InTreeWithCompiler(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="consumer")
         cls.addClassCleanup(folder.cleanup)
         cache = (BUILD / "CMakeCache.txt").read_text()
-        chosen = [match.group() for name in cls.CHOICES for match in re.finditer(rf"^{name}:\w+=.*$", cache, re.MULTILINE)]
+        chosen = [match.group() for name in cls.CHOICES
+                  for match in re.finditer(rf"^{name}:\w+=.*$", cache, re.MULTILINE)]
         cls.project = Project(folder.name, [f"-DDASHPOT_SOURCE={SOURCE}", *(f"-D{choice}" for choice in chosen)])
 
     def commands(self, build_folder, within):
@@ -211,7 +212,8 @@ class InTreeWithCompiler(unittest.TestCase):
 
 
 class Installed(Consumer, unittest.TestCase):
-    """dashpot found by find_package, in a folder that it was not installed to but moved to, without its dependencies."""
+    """dashpot found by find_package, in a folder that it was not installed to but moved to, without its
+    dependencies."""
 
     @classmethod
     def setUpClass(cls):
@@ -264,7 +266,8 @@ class Installed(Consumer, unittest.TestCase):
         fine = simulate(self.dashpot(), self.project, "tissue", 2000, "--device", self.project.folder / "arm.json")
         self.assertEqual([tuple(float(number) for number in row.split(",")) for row in rows], fine)
 
-    # Fails if a law that lacks damping is made unasked, or not though asked; or if its certificate is not that of its header.
+    # Fails if a law that lacks damping is made unasked, or not though asked; or if its certificate is not that of its
+    # header.
     def test_uncertified(self):
         self.project.build("hard_law")
         folder = self.project.build_folder
@@ -278,7 +281,8 @@ class Installed(Consumer, unittest.TestCase):
     # Fails if a target or a name that cannot be is taken.
     def test_what_cannot_be_made(self):
         for old, new, said in [("TARGET c99", "TARGET c89", "TARGET is 'c89'; cpp or c99 is expected"),
-                               ("NAME tissue_in_c", "NAME 2nd", "NAME is '2nd'; a name that a class can have is expected")]:
+                               ("NAME tissue_in_c", "NAME 2nd",
+                                "NAME is '2nd'; a name that a class can have is expected")]:
             self.project.replace("CMakeLists.txt", old, new)
             self.assertIn(said, " ".join(self.project.refused_build().split()))
             self.project.replace("CMakeLists.txt", new, old)
@@ -292,7 +296,8 @@ class Installed(Consumer, unittest.TestCase):
         self.project.build("paper_solid_law")
         program = self.project.folder / "without_cmake"
         self.project.run(os.environ.get("CXX", "c++"), "-std=c++17", "-I", self.project.build_folder / "paper_solid",
-                         SOURCE / "runtime/examples/own_loop.cpp", *ask("--cflags", "--libs", "dashpot-servo"), "-o", program)
+                         SOURCE / "runtime/examples/own_loop.cpp", *ask("--cflags", "--libs", "dashpot-servo"), "-o",
+                         program)
         self.project.run(program)
         for room, file in [("networks", "paper/kelvin.json"), ("devices", "board_mps2.json"), ("firmware", "main.cpp")]:
             folder, = ask(f"--variable={room}dir", "dashpot")
@@ -372,7 +377,8 @@ class Cross(unittest.TestCase):
     # A launcher such as ccache, which the tests' own build may use, is not in every `path`.
     def run_cmake(self, *words, path=os.environ["PATH"]):
         environment = {key: value for key, value in os.environ.items() if not key.endswith("_COMPILER_LAUNCHER")}
-        return subprocess.run([CMAKE, *map(str, words)], capture_output=True, text=True, env=dict(environment, PATH=path))
+        return subprocess.run([CMAKE, *map(str, words)], capture_output=True, text=True,
+                              env=dict(environment, PATH=path))
 
     def configure(self, *options, path=os.environ["PATH"]):
         return self.run_cmake("-G", "Ninja", "-S", self.folder, "-B", self.folder / "build",
@@ -384,7 +390,8 @@ class Cross(unittest.TestCase):
         with open(self.folder / "build/firmware.elf", "rb") as file:
             header = file.read(20)
         self.assertEqual((header[:5], header[18]), (b"\x7fELF\x01", 40))  # 32 bits, Arm
-        undefined = subprocess.run(["arm-none-eabi-nm", "-u", str(self.folder / "build/libsteps.a")], capture_output=True,
+        undefined = subprocess.run(["arm-none-eabi-nm", "-u", str(self.folder / "build/libsteps.a")],
+                                   capture_output=True,
                                    text=True, check=True).stdout.split()
         self.assertEqual({name for name in undefined if name.startswith("dashpot")}, set())
 

@@ -1,8 +1,8 @@
 """The checker in Coq (compiler/certify/proof/Loop.v) and the one in C++ (compiler/check/) on the same inequalities.
 
-An instance of random laws on random devices carries the witnesses that Coq asks for; C++ finds its own. Where C++ does not
-prove a damping there is nothing to be found, and Coq is asked with the witnesses of the damping that is enough.
-The environment names WRITE_INSTANCES and DASHPOT_SOURCE; DASHPOT_LONG=1 takes 2,000 inequalities.
+An instance of random laws on random devices carries the witnesses that Coq asks for; C++ finds its own. Where C++ does
+not prove a damping there is nothing to be found, and Coq is asked with the witnesses of the damping that is enough. The
+environment names WRITE_INSTANCES and DASHPOT_SOURCE; DASHPOT_LONG=1 takes 2,000 inequalities.
 """
 import os
 import pathlib
@@ -43,13 +43,15 @@ class CheckersAgree(unittest.TestCase):
             self.assertEqual(proved, written, f"instance {number}, a share of {share}")
             text = self.definitions(number if proved == "1" else whole)
             if proved == "0":
-                text = re.sub(r"(beta|gamma) := 0x([0-9a-f]+)", lambda m: f"{m[1]} := {int(int(m[2], 16) * float(share))}", text)
+                text = re.sub(r"(beta|gamma) := 0x([0-9a-f]+)",
+                              lambda m: f"{m[1]} := {int(int(m[2], 16) * float(share))}", text)
             asked.append((number, share, proved == "1", text))
         for name in ("Forms.v", "Loop.v"):
             self.coqc(name, (THEORY / name).read_text())
         for begin in range(0, len(asked), AT_ONCE):
             some = asked[begin:begin + AT_ONCE]
-            modules = [f"Module C{number}.\n{text}End C{number}.\nEval vm_compute in accepts C{number}.law C{number}.leading C{number}.of_P C{number}.of_parts.\n"
+            modules = [f"Module C{number}.\n{text}End C{number}.\nEval vm_compute in accepts C{number}.law "
+                       f"C{number}.leading C{number}.of_P C{number}.of_parts.\n"
                        for number, _, _, text in some]
             verdicts = re.findall(r"= (true|false)", self.coqc("Cases.v", HEAD + "".join(modules)))
             self.assertEqual(len(verdicts), len(some))

@@ -10,12 +10,14 @@ import dashpot as library
 from emitted import FIG_5, PANTOGRAPH, TUNABLE, PackageTest, dashpot, motion
 
 ZENER = {"dashpot": 1, "name": "zener",
-         "network": {"parallel": [{"spring": 100.0}, {"series": [{"spring": numpy.float64(150)}, {"damper": "45 N s/m"}]}]}}
+         "network": {"parallel": [{"spring": 100.0},
+                                  {"series": [{"spring": numpy.float64(150)}, {"damper": "45 N s/m"}]}]}}
 
 
 class Compile(PackageTest):
     def test_simulate(self):
-        """Fails if a network led along a motion does not give what `dashpot simulate` prints, at the motion's own rate."""
+        """Fails if a network led along a motion does not give what `dashpot simulate` prints, at the motion's own
+        rate."""
         tissue = library.compile(FIG_5)
         self.assertEqual((tissue.name, tissue.rate), ("second_order_maxwell", 1000))
         u = motion()
@@ -32,7 +34,8 @@ class Compile(PackageTest):
         self.assertEqual(library.compile(FIG_5, rate=4000).law().step(0, 0).damping, 11)
         self.assertEqual(library.compile(FIG_5, decomposition=2).law().step(0, 0).damping, 2)
         self.assertEqual(library.compile(FIG_5, scalar="float").package.SCALAR, "float")
-        soft, stiff = (library.compile(FIG_5, set={"K1": f"{k} N/m"}).simulate([0, 1e-3, 2e-3], [0, 1e-3, 1e-3]).force[-1]
+        soft, stiff = (library.compile(FIG_5, set={"K1": f"{k} N/m"}).simulate([0, 1e-3, 2e-3],
+                                                                               [0, 1e-3, 1e-3]).force[-1]
                        for k in (1, 1000))
         self.assertLess(soft, stiff)
         arm = library.compile(FIG_5, device=json.loads(PANTOGRAPH.read_text()), uncertified=True)
@@ -45,7 +48,8 @@ class Compile(PackageTest):
         path = self.folder / "zener.json"
         path.write_text(json.dumps(ZENER, default=float))
         u, t = motion(50), numpy.arange(50) / 1000
-        numpy.testing.assert_array_equal(library.compile(ZENER).simulate(t, u).force, library.compile(path).simulate(t, u).force)
+        numpy.testing.assert_array_equal(library.compile(ZENER).simulate(t, u).force,
+                                         library.compile(path).simulate(t, u).force)
         self.assertEqual(library.explain(ZENER), library.compile(str(path)).explain())
         self.assertEqual(library.explain(ZENER), json.loads(dashpot("explain", path, "--json").stdout))
 

@@ -24,7 +24,8 @@ _numbers = itertools.count()
 
 
 def dashpot(*words, status=0, **environment):
-    done = subprocess.run([DASHPOT, *map(str, words)], capture_output=True, text=True, env={**os.environ, **environment})
+    done = subprocess.run([DASHPOT, *map(str, words)], capture_output=True, text=True,
+                          env={**os.environ, **environment})
     assert done.returncode == status, f"dashpot {words} ended with {done.returncode}:\n{done.stderr}"
     return done
 

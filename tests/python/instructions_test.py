@@ -1,5 +1,5 @@
-"""A million samples from Python cost what they cost in C: instructions counted by valgrind, of which no machine is quicker or
-slower."""
+"""A million samples from Python cost what they cost in C: instructions counted by valgrind, of which no machine is
+quicker or slower."""
 import re
 import subprocess
 import sys
@@ -50,7 +50,8 @@ for run in range(len(sys.argv)):
 
 class Instructions(PackageTest):
     def counted(self, *command):
-        done = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={self.folder / 'out'}", *map(str, command)],
+        done = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={self.folder / 'out'}",
+                               *map(str, command)],
                               cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         return int(re.search(r"Collected : (\d+)", done.stderr)[1])
@@ -67,7 +68,8 @@ class Instructions(PackageTest):
             package = self.folder / name
             for file, text in [("loop.c", C_LOOP), ("loop.py", PYTHON_LOOP)]:
                 (self.folder / file).write_text(text.replace("{name}", name).replace("{rows}", str(ROWS)))
-            subprocess.run(["cc", "-std=c99", "-O2", "-ffp-contract=off", f"-D{name}_RATE=1000.0", f"-I{package}", "loop.c", "-o", "loop"],
+            subprocess.run(["cc", "-std=c99", "-O2", "-ffp-contract=off", f"-D{name}_RATE=1000.0", f"-I{package}",
+                            "loop.c", "-o", "loop"],
                            cwd=self.folder, check=True)
             in_c, in_python = self.one_run("./loop"), self.one_run(sys.executable, "-B", "loop.py")
             print(f"instructions per step of {name}: {in_c / ROWS:.1f} in C, {in_python / ROWS:.1f} from Python, "

@@ -45,7 +45,8 @@ def pictures():
 
 def outputs(text, drawn):
     shown = [{"name": "stdout", "output_type": "stream", "text": text.splitlines(keepends=True)}] if text else []
-    return shown + [{"data": {"image/png": picture}, "metadata": {}, "output_type": "display_data"} for picture in drawn]
+    return shown + [{"data": {"image/png": picture}, "metadata": {}, "output_type": "display_data"}
+                    for picture in drawn]
 
 
 def main():

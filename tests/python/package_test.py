@@ -24,13 +24,15 @@ class Bits(PackageTest):
             columns["velocity"] = motion(seed=8)
         wanted = self.simulated(network, {**columns, **(values or {})}, *choices)
         response = module.Law().simulate(position, columns.get("velocity"), values=values)
-        exact = numpy.float32 if module.SCALAR == "float" else numpy.float64  # shortest digits of a float are not those of a double
+        # shortest digits of a float are not those of a double
+        exact = numpy.float32 if module.SCALAR == "float" else numpy.float64
         for name in COLUMNS:
             numpy.testing.assert_array_equal(exact(getattr(response, name)), exact(wanted[name]), f"{network} {name}")
         self.assertGreater(numpy.max(numpy.abs(response.force)), 0)
 
     def test_paper(self):
-        """Fails if a bit of the paper's networks differs from what `dashpot simulate` computes, in double or in float."""
+        """Fails if a bit of the paper's networks differs from what `dashpot simulate` computes, in double or in
+        float."""
         for network in sorted((NETWORKS / "paper").glob("*.json")):
             self.check(network)
         for name in ["second_order_maxwell", "maxwell_slip_ten", "virtual_wall"]:
@@ -78,7 +80,8 @@ class Package(PackageTest):
         for choices in [[], ["--device", str(PANTOGRAPH), "--uncertified"]]:
             module = self.emitted(FIG_5, *choices)
             self.assertEqual(module.explain(), json.loads(dashpot("explain", FIG_5, "--json",
-                                                                  *[c for c in choices if c != "--uncertified"]).stdout))
+                                                                  *[c for c in choices
+                                                                    if c != "--uncertified"]).stdout))
 
     def test_steps(self):
         """Fails if single steps, runs in pieces, copies and resets are not the run as a whole."""
@@ -207,8 +210,10 @@ class Refusals(PackageTest):
 
     def test_options(self):
         """Fails if an option that the target has nothing for passes without a message."""
-        for option in [["--batch"], ["--constant-time"], ["--with-test"], ["--certificate", str(self.folder / "c.json")]]:
-            self.assertIn(f"--target python knows no {option[0]}", self.refused(FIG_5, *option, code="target", status=2))
+        for option in [["--batch"], ["--constant-time"], ["--with-test"],
+                       ["--certificate", str(self.folder / "c.json")]]:
+            self.assertIn(f"--target python knows no {option[0]}",
+                          self.refused(FIG_5, *option, code="target", status=2))
 
     def test_library_of_another_machine(self):
         """Fails if a package that was carried to another machine does not say how it is built there."""
@@ -221,7 +226,8 @@ class Refusals(PackageTest):
         command = re.search(r"in (.*): (cc .*)$", said.stderr, re.MULTILINE)
         self.assertIn("made for the machine that dashpot ran on", said.stderr)
         subprocess.run(command[2], shell=True, cwd=command[1], check=True)
-        self.assertTrue(float(subprocess.run(program, cwd=self.folder, capture_output=True, text=True, check=True).stdout))
+        self.assertTrue(float(subprocess.run(program, cwd=self.folder, capture_output=True, text=True,
+                                             check=True).stdout))
 
 
 if __name__ == "__main__":

@@ -2,9 +2,9 @@
 
     python3 run_blocks.py PAGE.md PREFIX
 
-PREFIX is where dashpot is installed. The scratch folder looks like a clone in which `./try --install ~/dashpot` has run: it has
-`networks/`, `runtime/` and `examples/`, a `try` that builds nothing, since PREFIX is built, and a home with `dashpot/` in it. What
-happens to a block depends on its language:
+PREFIX is where dashpot is installed. The scratch folder looks like a clone in which `./try --install ~/dashpot` has
+run: it has `networks/`, `runtime/` and `examples/`, a `try` that builds nothing, since PREFIX is built, and a home with
+`dashpot/` in it. What happens to a block depends on its language:
 
     json   a network or a device: saved under its name and compiled, without warnings passing for errors
     sh     run by bash, dashpot on the path; a command that fails fails the test
@@ -14,7 +14,8 @@ happens to a block depends on its language:
     cmake  saved as CMakeLists.txt, configured and built against the installed package
     text   what the block before printed; a line `…` stands for any number of lines
 
-Any other language, or none, is an error: nothing in a page goes unread. So is a link to a file or a heading that is not there.
+Any other language, or none, is an error: nothing in a page goes unread. So is a link to a file or a heading that is not
+there.
 """
 import json
 import os
@@ -59,7 +60,8 @@ class Scratch:
         (self.home / "dashpot").symlink_to(self.prefix.resolve())
 
     def run(self, *command, **variables):
-        done = subprocess.run([str(part) for part in command], cwd=self.folder, env={**self.environment, **variables}, text=True,
+        done = subprocess.run([str(part) for part in command], cwd=self.folder, env={**self.environment, **variables},
+                              text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if done.returncode != 0:
             raise Failure(f"{' '.join(str(part) for part in command)}\n{done.stdout}")
@@ -93,7 +95,8 @@ def run_cpp(scratch, text):
         return
     source = scratch.save("main.cpp", text)
     libraries = sorted((scratch.prefix / "lib").glob("libdashpot_*.a"))
-    scratch.run(os.environ.get("CXX", "c++"), *STRICT, *os.environ.get("CXXFLAGS", "").split(), "-I", scratch.prefix / "include", "-I", "emitted", "-I", ".", source,
+    scratch.run(os.environ.get("CXX", "c++"), *STRICT, *os.environ.get("CXXFLAGS", "").split(), "-I",
+                scratch.prefix / "include", "-I", "emitted", "-I", ".", source,
                 "-Wl,--start-group", *libraries, "-Wl,--end-group", "-pthread", "-o", "main")
     scratch.run("./main")
 
@@ -101,7 +104,8 @@ def run_cpp(scratch, text):
 def run_c(scratch, text):
     source = scratch.save("main.c", text)
     strict = [flag.replace("c++17", "c99") for flag in STRICT]
-    scratch.run(os.environ.get("CC", "cc"), *strict, "-I", scratch.prefix / "include", "-I", "emitted", "-I", ".", source,
+    scratch.run(os.environ.get("CC", "cc"), *strict, "-I", scratch.prefix / "include", "-I", "emitted", "-I", ".",
+                source,
                 "-o", "main")
     scratch.run("./main")
 
@@ -151,7 +155,8 @@ def blocks(text):
 def anchors(text):
     """What links to headings of this page end in, as the page's readers make them."""
     without_code = BLOCK.sub("", text)
-    return {re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-") for heading in HEADING.findall(without_code)}
+    return {re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+            for heading in HEADING.findall(without_code)}
 
 
 def check_links(text, folder):

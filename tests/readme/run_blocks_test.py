@@ -27,9 +27,11 @@ int main() { std::printf("%g N\\n", dashpot::generated::one_spring{}.step(3, 0).
 
 class RunBlocks(unittest.TestCase):
 
-    # Fails if good blocks are refused: a network, a program against what is emitted, its output, a quotation, a command.
+    # Fails if good blocks are refused: a network, a program against what is emitted, its output, a quotation, a
+    # command.
     def test_runs_good_blocks(self):
-        text = SPRING + PROGRAM + "```text\n6 N\n```\n```cpp\nclass one_spring {\n…\nprivate:\n```\n```sh\nls main\n```\n"
+        text = (SPRING + PROGRAM + "```text\n6 N\n```\n```cpp\nclass one_spring {\n…\nprivate:\n```\n"
+                "```sh\nls main\n```\n")
         self.assertEqual(run_readme(text.replace("private:", " private:"), PREFIX), 5)
 
     def assert_refused(self, text, reason):
@@ -88,7 +90,8 @@ int main(void) {
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             (folder / "other.md").write_text("# Words, and `code`\n```sh\n# no heading\n```\n")
-            check_links("## Here\n[a](other.md) [b](other.md#words-and-code) [c](#here) [d](https://example.org/x#y)", folder)
+            check_links("## Here\n[a](other.md) [b](other.md#words-and-code) [c](#here) [d](https://example.org/x#y)",
+                        folder)
             for link in ("another.md", "other.md#no-heading", "#there"):
                 with self.assertRaisesRegex(Failure, f"link to '{link}'"):
                     check_links(f"# Here\n[a]({link})", folder)

@@ -1,4 +1,5 @@
-"""The page of `dashpot report` for networks of two axes: its maps, read back from the drawing, against closed forms and `explain`."""
+"""The page of `dashpot report` for networks of two axes: its maps, read back from the drawing, against closed forms and
+`explain`."""
 import json
 import itertools
 import math
@@ -26,10 +27,12 @@ class Map:
         self.title = re.search("<figcaption>(.*?)</figcaption>", figure).group(1)
         self.note = re.search('<p class="note">(.*?)</p>', figure).group(1)
         self.svg = ElementTree.fromstring(re.search("<svg.*</svg>", figure, re.DOTALL).group(0))
-        at = lambda name, across: [(float(text.get("x" if across else "y")) - (0 if across else 4), float(text.text.replace("−", "-")))
+        at = lambda name, across: [(float(text.get("x" if across else "y")) - (0 if across else 4),
+                                    float(text.text.replace("−", "-")))
                                    for text in self.svg.findall("text") if text.get("class") == name]
         frame = float(re.match(r"M[\d.]+ [\d.]+V([\d.]+)", self.of("frame")[0].get("d")).group(1))
-        across = [tick for tick, text in zip(at("tick", True), (t for t in self.svg.findall("text") if t.get("class") == "tick"))
+        across = [tick for tick, text in zip(at("tick", True),
+                                             (t for t in self.svg.findall("text") if t.get("class") == "tick"))
                   if abs(float(text.get("y")) - frame - 17) < 0.1]
         up = at("tick y", False)
         self.scale = (across[-1][0] - across[0][0]) / (across[-1][1] - across[0][1])
@@ -57,7 +60,8 @@ class Pages(unittest.TestCase):
         self.folder = pathlib.Path(temporary.name)
 
     def dashpot(self, *arguments):
-        return subprocess.run([DASHPOT, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, check=True, timeout=60).stdout
+        return subprocess.run([DASHPOT, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                              check=True, timeout=60).stdout
 
     def page(self, network, *choices):
         self.dashpot("report", network, *choices, "-o", "page.html")
@@ -69,17 +73,24 @@ class Pages(unittest.TestCase):
 
 class AxesReport(Pages):
     def test_shares(self):
-        """Fails if the shades of a map are not the shares that `explain` sums up, or the place of the least is another."""
+        """Fails if the shades of a map are not the shares that `explain` sums up, or the place of the least is
+        another."""
         for network in (FIELD, WALL):
-            told = {one["name"]: one["share"] for one in json.loads(self.dashpot("explain", network, "--device", PANTOGRAPH, "--json"))["candidates"]}
-            drawn = [one for one in self.maps(self.page(network, "--device", PANTOGRAPH)) if one.title.startswith("Share of the brakes")]
-            self.assertEqual([one.title for one in drawn], ["Share of the brakes, diagonal (chosen)", "Share of the brakes, non-injecting"])
+            told = {one["name"]: one["share"]
+                    for one in json.loads(self.dashpot("explain", network, "--device", PANTOGRAPH,
+                                                       "--json"))["candidates"]}
+            drawn = [one for one in self.maps(self.page(network, "--device", PANTOGRAPH))
+                     if one.title.startswith("Share of the brakes")]
+            self.assertEqual([one.title for one in drawn],
+                             ["Share of the brakes, diagonal (chosen)", "Share of the brakes, non-injecting"])
             for one, name in zip(drawn, ("diagonal", "non-injecting")):
-                shades = [shade for shade in one.of("shade") if float(shade.get("height")) < 9.5]  # the scale's are 10 high
+                # the scale's are 10 high
+                shades = [shade for shade in one.of("shade") if float(shade.get("height")) < 9.5]
                 area = lambda shade: float(shade.get("width")) - 0.3
                 full = max(float(text.text) for text in one.svg.findall("text") if text.get("class") == "tick" and
                            abs(float(text.get("y")) - max(float(t.get("y")) for t in one.svg.findall("text"))) < 0.1)
-                mean = full * sum(area(s) * float(s.get("fill-opacity")) / 0.85 for s in shades) / sum(map(area, shades))
+                mean = full * sum(area(s) * float(s.get("fill-opacity")) / 0.85
+                                  for s in shades) / sum(map(area, shades))
                 self.assertAlmostEqual(mean, told[name]["mean"], delta=0.025 * full)  # shades are rounded to twentieths
                 self.assertEqual(len(one.of("mark")) > 0, told[name]["delay_proof"] < 1)
                 dot, = one.of("place")
@@ -87,7 +98,8 @@ class AxesReport(Pages):
                     self.assertAlmostEqual(a, 1e3 * b, delta=0.03)
 
     def test_the_force_of_a_ball(self):
-        """Fails if arrows do not point away from a ball's centre, reach into what is free, or the surface is drawn elsewhere."""
+        """Fails if arrows do not point away from a ball's centre, reach into what is free, or the surface is drawn
+        elsewhere."""
         arm, force, *_ = self.maps(self.page(BALL, "--device", PANTOGRAPH))
         centre, radius = (0, 140), 30
         for drawing in (arm, force):
@@ -98,13 +110,15 @@ class AxesReport(Pages):
         lengths = {}
         for path in force.of("arrow"):
             # A shaft and the two lines of its head; a dot where there is no force.
-            for shaft in re.findall(r"M([\d.]+) ([\d.]+)L([\d.]+) ([\d.]+)M[\d. ]+L[\d. ]+M[\d. ]+L[\d. ]+", path.get("d")):
+            for shaft in re.findall(r"M([\d.]+) ([\d.]+)L([\d.]+) ([\d.]+)M[\d. ]+L[\d. ]+M[\d. ]+L[\d. ]+",
+                                    path.get("d")):
                 x, y, end_x, end_y = map(float, shaft)
                 start, end = force.place(x, y), force.place(end_x, end_y)
                 along, away = ([b - a for a, b in zip(start, end)], [a - c for a, c in zip(start, centre)])
                 lengths[start] = math.hypot(*along)
                 if lengths[start] < 1: continue  # a tenth of a pixel is too much of it
-                self.assertGreater(along[0] * away[0] + along[1] * away[1], 0.99 * math.hypot(*along) * math.hypot(*away))
+                self.assertGreater(along[0] * away[0] + along[1] * away[1],
+                                   0.99 * math.hypot(*along) * math.hypot(*away))
                 self.assertLess(math.dist(start, centre), radius)
         # 200 N/m of depth; the longest stands for what the note says.
         longest = float(re.search(r"longest arrow is ([\d.]+) N", force.note).group(1))
@@ -112,7 +126,8 @@ class AxesReport(Pages):
         self.assertGreater(len(lengths), 2)
         for start, length in lengths.items():
             if length > most / 2:
-                self.assertAlmostEqual(length / most * longest, 0.2 * (radius - math.dist(start, centre)), delta=0.03 * longest)
+                self.assertAlmostEqual(length / most * longest, 0.2 * (radius - math.dist(start, centre)),
+                                       delta=0.03 * longest)
 
     def test_the_arm(self):
         """Fails if links are drawn with other lengths than the arm's, or do not meet in the middle of the workspace, or
@@ -147,7 +162,8 @@ class AxesReport(Pages):
                 told["kinematics"].pop("links")
                 told["encoders"] = {"resolution": "1 um"}
                 told["motors"] = {"max_torque": "5 N"}
-                told["brakes"] = [{"along": [1, 0], "kind": "eddy_current", "max_damping": "5 N s/m"}, {"along": [0, 1], "kind": "eddy_current", "max_damping": "5 N s/m"}]
+                told["brakes"] = [{"along": [1, 0], "kind": "eddy_current", "max_damping": "5 N s/m"},
+                                  {"along": [0, 1], "kind": "eddy_current", "max_damping": "5 N s/m"}]
                 told["mechanics"] = {"inertia": [["0.1 kg", "0 kg"], ["0 kg", "0.1 kg"]]}
             told.pop("assumed")
             (self.folder / "device.json").write_text(json.dumps(told))
@@ -190,9 +206,11 @@ FOUR_ARMS = {"serial": {"links": ["80 mm", "75 mm"]}, "parallelogram": {"links":
 def ideal_device(kind, kinematics):
     """An arm of that kind with brakes at its joints and no imperfection."""
     turns = kind != "cartesian"
-    return {"dashpot_device": 1, "axes": 2, "name": "arm", "kinematics": {"kind": kind, **kinematics, "workspace": WORKSPACE},
+    return {"dashpot_device": 1, "axes": 2, "name": "arm",
+            "kinematics": {"kind": kind, **kinematics, "workspace": WORKSPACE},
             "loop": {"rate": "2 kHz"}, "velocity": {"estimator": "backward_difference", "window": 1}, "motors": {},
-            "brakes": [{"along": direction, "kind": "eddy_current", "max_damping": "50 mN m s/rad" if turns else "50 N s/m"}
+            "brakes": [{"along": direction, "kind": "eddy_current", "max_damping": "50 mN m s/rad" if turns
+                        else "50 N s/m"}
                        for direction in ([1, 0], [0, 1])],
             "mechanics": {"link_masses": ["20 g", "15 g"], "damping": "10 mN m s/rad"} if turns else
                          {"inertia": [["0.1 kg", "0 kg"], ["0 kg", "0.1 kg"]], "damping": "20 N s/m"}}
@@ -225,7 +243,8 @@ class Dragged(Pages):
     def drag(self, ways):
         """The tool by so many pixels, one way after the other, until it rests."""
         x, y = self.browser.run(TOOL)
-        places = [(round(x + a), round(y + b)) for a, b in itertools.accumulate([(0, 0), *ways], lambda p, q: (p[0] + q[0], p[1] + q[1]))]
+        places = [(round(x + a), round(y + b))
+                  for a, b in itertools.accumulate([(0, 0), *ways], lambda p, q: (p[0] + q[0], p[1] + q[1]))]
         before = self.browser.run(TIP)
         self.browser.drag("#drag svg", places)
         self.wait_for_rest(before)
@@ -241,7 +260,8 @@ class Dragged(Pages):
             self.assertAlmostEqual(self.number(shown), wanted, delta=5.1e-3 * wanted + 1e-9)
 
     def test_the_tool_feels_the_network(self):
-        """Fails if the tool does not follow, a held tip feels another force than the field's springs make, or energy is lost."""
+        """Fails if the tool does not follow, a held tip feels another force than the field's springs make, or energy is
+        lost."""
         self.open(FIELD, PANTOGRAPH)
         start = self.browser.run(TIP)
         stored = self.number("stored")
@@ -257,7 +277,8 @@ class Dragged(Pages):
         self.assertEqual((self.browser.log("browser"), self.browser.requested()), ([], []))
 
     def test_the_law_is_what_simulate_runs(self):
-        """Fails if the page's law is another one, in either type of numbers, of a ball, a contact that damps, or a field."""
+        """Fails if the page's law is another one, in either type of numbers, of a ball, a contact that damps, or a
+        field."""
         rows = []
         for k in range(300):
             q = [2.1 + 0.2 * math.sin(0.05 * k), 1.0 + 0.2 * math.cos(0.03 * k)]
@@ -266,7 +287,8 @@ class Dragged(Pages):
             f"{k / 1e4!r}," + ",".join(map(repr, row)) + "\n" for k, row in enumerate(rows)))
         for network, scalar in ((FIELD, "double"), (BALL, "float"), (WALL, "double")):
             self.open(network, PANTOGRAPH, "--scalar", scalar)
-            lines = self.dashpot("simulate", network, "--device", PANTOGRAPH, "--scalar", scalar, "--input", "motion.csv").splitlines()
+            lines = self.dashpot("simulate", network, "--device", PANTOGRAPH, "--scalar", scalar, "--input",
+                                 "motion.csv").splitlines()
             kind = {"double": "d", "float": "f"}[scalar]
             names = lines[0].split(",")
             wanted = [names.index(name) for name in names if name.startswith(("damping", "torque"))]

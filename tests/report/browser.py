@@ -8,7 +8,8 @@ import urllib.request
 
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # the key of an element's identity, fixed by the standard
 ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
-             "--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage", "--window-size=1100,900",
+             "--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage",
+             "--window-size=1100,900",
              "--disable-frame-rate-limit", "--disable-gpu-vsync"]  # a pointer is moved once a frame, and nobody looks
 
 
@@ -18,7 +19,8 @@ class Browser:
     def __enter__(self):
         self._profile = tempfile.TemporaryDirectory()
         environment = {**os.environ, "HOME": self._profile.name}
-        self._driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+        self._driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                        text=True,
                                         env=environment)
         try:
             self._root = f"http://127.0.0.1:{self._port()}/session"
@@ -50,7 +52,8 @@ class Browser:
 
     def _request(self, method, path, body=None):
         data = None if method != "POST" else json.dumps(body or {}).encode()
-        request = urllib.request.Request(self._root + path, data=data, method=method, headers={"Content-Type": "application/json"})
+        request = urllib.request.Request(self._root + path, data=data, method=method,
+                                         headers={"Content-Type": "application/json"})
         try:
             with urllib.request.urlopen(request, timeout=120) as answer:
                 return json.load(answer)["value"]
@@ -79,7 +82,8 @@ class Browser:
         self._request("POST", f"/element/{self.find(selector)}/value", {"text": text})
 
     def drag(self, selector, places):
-        """The pointer pressed at the first place, moved through the others and lifted; in pixels from the element's middle."""
+        """The pointer pressed at the first place, moved through the others and lifted; in pixels from the element's
+        middle."""
         first, *others = self._moves(selector, places)
         self._point([first, {"type": "pointerDown", "button": 0}, *others, {"type": "pointerUp", "button": 0}])
 
@@ -92,8 +96,9 @@ class Browser:
         return [{"type": "pointerMove", "duration": 1, "origin": origin, "x": x, "y": y} for x, y in places]
 
     def _point(self, steps):
-        self._request("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"},
-                                                        "actions": steps}]})
+        self._request("POST", "/actions",
+                      {"actions": [{"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"},
+                                    "actions": steps}]})
 
     def log(self, kind):
         return self._request("POST", "/se/log", {"type": kind})

@@ -19,7 +19,8 @@ from browser import Browser
 
 DASHPOT = os.environ["DASHPOT"]
 SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
-NETWORKS = sorted(path for path in SOURCE.glob("networks/*/*.json") if path.parent.name != "axes")  # a page is of one axis
+# a page is of one axis
+NETWORKS = sorted(path for path in SOURCE.glob("networks/*/*.json") if path.parent.name != "axes")
 IS_LONG = os.environ.get("DASHPOT_LONG") == "1"
 TUNABLE = sorted(SOURCE.glob("networks/tunable/*.json"))
 FIG_5 = SOURCE / "networks/paper/second_order_maxwell.json"
@@ -103,7 +104,8 @@ def columns(text, scalar):
     """Every cell as the bytes of its number: times are double, the others of the law's type."""
     rows = list(csv.reader(io.StringIO(text)))
     kind = {"double": "d", "float": "f"}[scalar]
-    return [rows[0]] + [[struct.pack("d" if i == 0 else kind, float(cell)) for i, cell in enumerate(row)] for row in rows[1:]]
+    return [rows[0]] + [[struct.pack("d" if i == 0 else kind, float(cell)) for i, cell in enumerate(row)]
+                        for row in rows[1:]]
 
 
 class Pages(unittest.TestCase):
@@ -191,7 +193,8 @@ class Pages(unittest.TestCase):
         self.assert_all_used()
 
     def click_through_tunables(self):
-        """The keys of every slider change the force, not before the instant that is asked for, and Defaults undoes it."""
+        """The keys of every slider change the force, not before the instant that is asked for, and Defaults undoes
+        it."""
         if not self.tunables():
             return
         self.browser.click("[data-motion=sine]")
@@ -245,8 +248,10 @@ class Pages(unittest.TestCase):
         found = self.browser.run(
             "return [...document.querySelectorAll('button, input, select, summary, canvas#pad')]"
             ".map((e) => e.dataset.motion ?? (e.id || e.tagName))")
-        known = {"press", "sine", "triangle", "steps", "upload", "download", "depth", "duration", "pad", "pareto-x", "pareto-y",
-                 "change-at", "defaults", "SUMMARY", "download-felt"} | {f"tunable-{name}" for name, *_ in self.tunables()}
+        known = {"press", "sine", "triangle", "steps", "upload", "download", "depth", "duration", "pad", "pareto-x",
+                 "pareto-y",
+                 "change-at", "defaults", "SUMMARY", "download-felt"} | {f"tunable-{name}"
+                                                                         for name, *_ in self.tunables()}
         self.assertEqual(set(found) - known, set())
 
     def assert_simulates(self, network, *choices, rate=1000, scalar="double", motions=(False, True)):
@@ -254,14 +259,16 @@ class Pages(unittest.TestCase):
         for with_velocity in motions:
             motion = self.upload(wiggle(rate, with_velocity))
             self.wait_for("700 samples")
-            done = subprocess.run([DASHPOT, "simulate", str(network), *map(str, choices), "--input", str(motion)], capture_output=True,
+            done = subprocess.run([DASHPOT, "simulate", str(network), *map(str, choices), "--input", str(motion)],
+                                  capture_output=True,
                                   text=True, timeout=60, check=True)
             self.assertEqual(columns(self.handed_out(), scalar), columns(done.stdout, scalar), network)
 
     def test_every_network(self):
-        """Fails if a page of a network in networks/ is too large, says anything on the console, asks for anything beyond
-        itself, has a control that does nothing, or computes another bit than `dashpot simulate`. All controls are used, and motions
-        with and without velocity, on networks with every two parts that a page has together; with --long, on all."""
+        """Fails if a page of a network in networks/ is too large, says anything on the console, asks for anything
+        beyond itself, has a control that does nothing, or computes another bit than `dashpot simulate`. All controls
+        are used, and motions with and without velocity, on networks with every two parts that a page has together; with
+        --long, on all."""
         clicked = NETWORKS if IS_LONG else covering(NETWORKS)
         for network in NETWORKS:
             with self.subTest(network=network.name):
@@ -272,7 +279,8 @@ class Pages(unittest.TestCase):
                 self.assert_quiet()
 
     def click_through_felt_error(self):
-        """The chart of the error names every candidate, says its error where the pointer is, and hides and shows its curve."""
+        """The chart of the error names every candidate, says its error where the pointer is, and hides and shows its
+        curve."""
         names = self.browser.run(f"{DATA}.felt_error.candidates.map((c) => c.name)")
         candidates = self.browser.run(f"{DATA}.pareto.candidates.map((c) => c.name)")
         self.assertEqual(sorted(", ".join(names).split(", ")), sorted(candidates))
@@ -283,7 +291,8 @@ class Pages(unittest.TestCase):
                  "return [document.querySelectorAll('#felt-error .u-series.u-off').length, canvas.toDataURL()]")
         off, before = self.browser.run(shown)
         self.assertEqual(off, 0)
-        click = f"{labels}.find((label) => label.textContent.startsWith('paper')).dispatchEvent(new MouseEvent('click', {{ bubbles: true }}))"
+        click = (f"{labels}.find((label) => label.textContent.startsWith('paper'))"
+                 ".dispatchEvent(new MouseEvent('click', { bubbles: true }))")
         redrawn = "return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
         self.browser.run(f"{click}; {redrawn}")
         off, without = self.browser.run(shown)
@@ -308,8 +317,8 @@ class Pages(unittest.TestCase):
         self.assert_quiet()
 
     def test_what_is_felt(self):
-        """Fails if what a page says is felt of an uploaded motion, at whatever rate it was recorded, is not what `dashpot run --motion` plays on
-        the same device, for a linear network, one with slips and one with tunables."""
+        """Fails if what a page says is felt of an uploaded motion, at whatever rate it was recorded, is not what
+        `dashpot run --motion` plays on the same device, for a linear network, one with slips and one with tunables."""
         device = json.loads(PANTOGRAPH.read_text())
         device["loop"]["jitter"] = "0 s"  # a page knows no chance
         arm = self.write("arm.json", json.dumps(device))
@@ -323,12 +332,15 @@ class Pages(unittest.TestCase):
                 self.assertIn("error of what is felt on pantograph_brake_2009", said)
                 self.assertEqual("against the network" in said, is_linear)
                 played = self.folder / "felt.csv"
-                done = subprocess.run([DASHPOT, "run", str(network), "--device", str(arm), "--motion", str(motion), "-o", str(played), "--json"],
+                done = subprocess.run([DASHPOT, "run", str(network), "--device", str(arm), "--motion", str(motion),
+                                       "-o", str(played), "--json"],
                                       capture_output=True, text=True, timeout=120, check=True)
-                here, there = [list(csv.DictReader(io.StringIO(text))) for text in (self.browser.run(DOWNLOADED_FELT), played.read_text())]
+                here, there = [list(csv.DictReader(io.StringIO(text)))
+                               for text in (self.browser.run(DOWNLOADED_FELT), played.read_text())]
                 self.assertEqual((list(here[0]), len(here)), (list(there[0]), len(there)))
                 peak = json.loads(done.stdout)["force"]["peak"]
-                exact = {"position": 1e-9, "estimate": 1e-6, "felt_force": 1e-6 * peak, "damping": 1e-6, "motor_force": 1e-6 * peak}
+                exact = {"position": 1e-9, "estimate": 1e-6, "felt_force": 1e-6 * peak, "damping": 1e-6,
+                         "motor_force": 1e-6 * peak}
                 for name, close in (exact | ({"closed_form": 1e-6 * peak} if is_linear else {})).items():
                     worst = max(abs(float(a[name]) - float(b[name])) for a, b in zip(here[:-1], there))
                     self.assertLess(worst, close, name)
@@ -349,29 +361,33 @@ class Pages(unittest.TestCase):
                 self.assert_quiet()
 
     def test_slips_on_a_device_tell_the_whole_choice(self):
-        """Fails if the page of a network with slips keeps to itself, on a device, what was chosen beside the slips and why, how the candidates
-        err over the band, or by how much and in which motion the law behind the slips does."""
+        """Fails if the page of a network with slips keeps to itself, on a device, what was chosen beside the slips and
+        why, how the candidates err over the band, or by how much and in which motion the law behind the slips does."""
         self.open(SOURCE / "networks/paper/visco_elasto_plastic.json", "--device", PANTOGRAPH)
         text = "return document.getElementById('{}').textContent"
         beside = self.browser.run(text.format("candidates"))
         self.assertIn("beside the slips", beside)
         self.assertIn("'faithful' takes b =", beside)
-        self.assertRegex(self.browser.run(text.format("regimes")), r"what is felt errs by up to [\d.]+ % of the force, in a (sine|drag)")
+        self.assertRegex(self.browser.run(text.format("regimes")),
+                         r"what is felt errs by up to [\d.]+ % of the force, in a (sine|drag)")
         names = ", ".join(self.browser.run(f"{DATA}.felt_error.candidates.map((c) => c.name)"))
         self.assertIn("faithful", names)
         self.assert_quiet()
 
     def test_every_slip_keeps_its_name(self):
-        """Fails if one of several slips shares the name, the regimes or the candidates of another, or if what is said of a ring of slips is said
-        of a network without."""
-        rows = "return [...document.querySelectorAll('#regimes .regimes tbody tr')].map((row) => [...row.children].map((cell) => cell.textContent))"
+        """Fails if one of several slips shares the name, the regimes or the candidates of another, or if what is said
+        of a ring of slips is said of a network without."""
+        rows = ("return [...document.querySelectorAll('#regimes .regimes tbody tr')]"
+                ".map((row) => [...row.children].map((cell) => cell.textContent))")
         self.open(SOURCE / "networks/paper/maxwell_slip_ten.json")
         shown = self.browser.run(rows)
         for i in range(1, 11):
             self.assertIn(["–", f"Y{i}", "0", "0", "0", str(210 - 10 * i)], shown)
             self.assertIn([f"Y{i}", "–", "0", "0", "0", "0"], shown)
-        self.assertIn("Y1, Y2, Y3, Y4, Y5, Y6, Y7, Y8, Y9, Y10", self.browser.run("return document.querySelector('#regimes h3').textContent"))
-        laws = self.browser.run("return [...document.querySelectorAll('#regimes .laws b')].map((law) => law.textContent)")
+        self.assertIn("Y1, Y2, Y3, Y4, Y5, Y6, Y7, Y8, Y9, Y10",
+                      self.browser.run("return document.querySelector('#regimes h3').textContent"))
+        laws = self.browser.run("return [...document.querySelectorAll('#regimes .laws b')].map((law) => "
+                                "law.textContent)")
         self.assertEqual(laws, ["velocity-free", "steady", "ramped", "gated"])
         self.open(SOURCE / RING)
         self.assertEqual(len(self.browser.run(rows)), 8)
@@ -380,8 +396,8 @@ class Pages(unittest.TestCase):
         self.assertNotIn("Canonical form", self.browser.run("return document.body.textContent"))
 
     def test_the_first_response_says_something(self):
-        """Fails if a page opens with a motion that does not reach the tissue, or at which no slip yields: a tenth of it would then answer with a
-        tenth of the force."""
+        """Fails if a page opens with a motion that does not reach the tissue, or at which no slip yields: a tenth of it
+        would then answer with a tenth of the force."""
         for network in [self.write("behind.json", BEHIND), *(path for path in NETWORKS if "slip" in features(path))]:
             with self.subTest(network=network.name):
                 self.open(network)
@@ -403,15 +419,16 @@ class Pages(unittest.TestCase):
         self.assertIsNone(self.browser.run("return document.getElementById('comments')"))
 
     def test_uploads_are_read_as_simulate_reads(self):
-        """Fails if the page reads another table than `dashpot simulate`, reads it otherwise, or takes one that it refuses: units, separators,
-        decimals, lines in front, digits of times."""
+        """Fails if the page reads another table than `dashpot simulate`, reads it otherwise, or takes one that it
+        refuses: units, separators, decimals, lines in front, digits of times."""
         self.open(FIG_5)
         rows = [(k / 1000, 0.002 * math.sin(0.02 * k)) for k in range(60)]
         def table(header, line, before=""):
             return before + header + "\n" + "".join(line(t, u) + "\n" for t, u in rows)
         good = [table("time [s],position [mm]", lambda t, u: f"{t:.3f},{1000 * u!r}"),
                 table("t;x (µm)", lambda t, u: f"{t:.3f};{1e6 * u!r}".replace(".", ",")),
-                table("time\tdisplacement", lambda t, u: f"{1000 * t:.0f}\t{100 * u!r}", "a rig, 3 runs\n\n").replace("ment\n", "ment\nms\tcm\n"),
+                table("time\tdisplacement", lambda t, u: f"{1000 * t:.0f}\t{100 * u!r}",
+                      "a rig, 3 runs\n\n").replace("ment\n", "ment\nms\tcm\n"),
                 table("# time[ms] position[m] velocity[mm/min]", lambda t, u: f"{1000 * t:.0f}  {u!r}  7.25"),
                 table("t [ms] | x [mm]", lambda t, u: f"{1000 * t:.0f} | {1000 * u!r}"),
                 table("note,time,position", lambda t, u: f"a,{t:.3f},+{abs(u):.6f}"),
@@ -422,24 +439,30 @@ class Pages(unittest.TestCase):
             with self.subTest(text=text[:60]):
                 motion = self.upload(text)
                 self.wait_for("3 samples" if "\r" in text else "60 samples")
-                done = subprocess.run([DASHPOT, "simulate", str(FIG_5), "--input", str(motion)], capture_output=True, text=True, timeout=60)
+                done = subprocess.run([DASHPOT, "simulate", str(FIG_5), "--input", str(motion)], capture_output=True,
+                                      text=True, timeout=60)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertEqual(columns(self.handed_out(), "double"), columns(done.stdout, "double"))
-        bad = {"time,position [N]\n0,0\n": "column 'position [N]' in 'N'", "time,position [deg]\n0,0\n0.001,1\n": "the motion is in radians",
+        bad = {"time,position [N]\n0,0\n": "column 'position [N]' in 'N'",
+               "time,position [deg]\n0,0\n0.001,1\n": "the motion is in radians",
                "time,position,position [mm]\n0,0,0\n": "there twice", "t;x\n0;0\n0,001;1;2\n": "row 3 has 3 fields",
-               "time [ms],position\n0,0\n1,0\n2,0\n4,0\n": "a uniform period", "time,position\n0,0\n0.001,1e999\n": "a finite number",
+               "time [ms],position\n0,0\n1,0\n2,0\n4,0\n": "a uniform period",
+               "time,position\n0,0\n0.001,1e999\n": "a finite number",
                "time,position\n0,0\n0.001,\n": "position is ''", "time,position [Tm]\n0,1e308\n0.001,0\n": "too large",
-               table("time,position", lambda t, u: f"{t:.2f},{u!r}"): "times that rise", "time,position\n0,0\n1e10,0\n": "rows come at 10⁻¹⁰ Hz"}
+               table("time,position", lambda t, u: f"{t:.2f},{u!r}"): "times that rise",
+               "time,position\n0,0\n1e10,0\n": "rows come at 10⁻¹⁰ Hz"}
         for text, said in bad.items():
             with self.subTest(said=said):
                 motion = self.upload(text)
                 self.wait_for(said)
-                done = subprocess.run([DASHPOT, "simulate", str(FIG_5), "--input", str(motion)], capture_output=True, text=True, timeout=60)
+                done = subprocess.run([DASHPOT, "simulate", str(FIG_5), "--input", str(motion)], capture_output=True,
+                                      text=True, timeout=60)
                 self.assertNotEqual(done.returncode, 0)
         self.assert_quiet()
 
     def test_advice_works(self):
-        """Fails if the --rate that a page asks for is not one that the compiler takes, or does not let the upload in."""
+        """Fails if the --rate that a page asks for is not one that the compiler takes, or does not let the upload
+        in."""
         for period in ["0.000333", "0.0123456", "0.02"]:
             text = "time,position\n" + "".join(f"{k * float(period):.9g},{k % 7}e-4\n" for k in range(40))
             self.open(FIG_5)
@@ -451,7 +474,8 @@ class Pages(unittest.TestCase):
             self.wait_for("40 samples")
 
     def test_axes_that_tell_the_candidates_apart(self):
-        """Fails if another pair of figures would show more of the candidates apart than the two that the scatter begins with."""
+        """Fails if another pair of figures would show more of the candidates apart than the two that the scatter begins
+        with."""
         for network in [FIG_5, SOURCE / "networks/tissues/swine_kidney_cortex.json"]:
             for choices in [[], ["--device", PANTOGRAPH]]:
                 self.open(network, *choices)
@@ -461,21 +485,26 @@ class Pages(unittest.TestCase):
                     most = [max(abs(row[i]) for row in values if row[i] is not None) or 1 for i in (x, y)]
                     points = [(row[x] / most[0], row[y] / most[1]) for row in values if None not in (row[x], row[y])]
                     return sum(math.dist(p, q) >= 0.05 for i, p in enumerate(points) for q in points[:i])
-                chosen = [int(self.browser.run(f"return document.getElementById('pareto-{axis}').value")) for axis in "xy"]
+                chosen = [int(self.browser.run(f"return document.getElementById('pareto-{axis}').value"))
+                          for axis in "xy"]
                 count = len(pareto["figures"])
                 self.assertEqual(apart(*chosen), max(apart(x, y) for x in range(count) for y in range(x + 1, count)))
 
     def test_legends_and_labels(self):
-        """Fails if a legend says values that nobody asked for, if a label is cut off at the edge of its plot, or if a number has more than four
-        digits."""
-        for network, choices in [(FIG_5, ["--device", PANTOGRAPH]), (SOURCE / "networks/paper/visco_elasto_plastic_organ.json", [])]:
+        """Fails if a legend says values that nobody asked for, if a label is cut off at the edge of its plot, or if a
+        number has more than four digits."""
+        for network, choices in [(FIG_5, ["--device", PANTOGRAPH]),
+                                 (SOURCE / "networks/paper/visco_elasto_plastic_organ.json", [])]:
             self.open(network, *choices)
             for width in [1100, 390]:
-                self.browser.devtools("Emulation.setDeviceMetricsOverride", width=width, height=844, deviceScaleFactor=1, mobile=False)
+                self.browser.devtools("Emulation.setDeviceMetricsOverride", width=width, height=844,
+                                      deviceScaleFactor=1, mobile=False)
                 self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
-                legends = self.browser.run("return [...document.querySelectorAll('.u-legend')].map((legend) => legend.innerText)")
+                legends = self.browser.run("return [...document.querySelectorAll('.u-legend')].map((legend) => "
+                                           "legend.innerText)")
                 self.assertTrue(legends)
-                self.assertFalse([text for text in legends if ":" in text or "--" in text or re.match("time|frequency", text)])
+                self.assertFalse([text for text in legends if ":" in text or "--" in text
+                                  or re.match("time|frequency", text)])
                 cut = self.browser.run("""return [...document.querySelectorAll('svg.plot')].filter((plot) => plot.checkVisibility()).flatMap((plot) => {
                     const box = plot.getBoundingClientRect();
                     return [...plot.querySelectorAll('text')].filter((text) => {
@@ -484,19 +513,24 @@ class Pages(unittest.TestCase):
                     }).map((text) => text.textContent);
                   })""")
                 self.assertEqual(cut, [])
-            text = self.browser.run("return [...document.querySelectorAll('header dl, main section:not(#live)')].map((part) => part.innerText).join('\\n')")
-            long = [number for number in re.findall(r"(?<![\w.])\d+\.\d+", text) if len(number.replace(".", "").lstrip("0")) > 4]
+            text = self.browser.run("return [...document.querySelectorAll('header dl, main "
+                                    "section:not(#live)')].map((part) => part.innerText).join('\\n')")
+            long = [number for number in re.findall(r"(?<![\w.])\d+\.\d+", text)
+                    if len(number.replace(".", "").lstrip("0")) > 4]
             self.assertEqual(long, [])
 
     def test_tunables(self):
-        """Fails if a slider's set() is not that of the law: what the page hands out, with the parameters' values beside the
-        motion, is simulated anew by `dashpot simulate`, at rest, under load and with values that change at every sample."""
+        """Fails if a slider's set() is not that of the law: what the page hands out, with the parameters' values beside
+        the motion, is simulated anew by `dashpot simulate`, at rest, under load and with values that change at every
+        sample."""
         for network in TUNABLE:
             with self.subTest(network=network.name):
                 self.open(network)
-                shown = self.browser.run("return [...document.querySelectorAll('#tunables label > span')].map((name) => name.textContent)")
+                shown = self.browser.run("return [...document.querySelectorAll('#tunables label > span')].map((name) "
+                                         "=> name.textContent)")
                 self.assertEqual(shown, [name for name, *_ in self.tunables()])
-                listed = self.browser.run("return [...document.querySelectorAll('#equations tbody tr')].map((row) => [...row.children].map((cell) => cell.textContent))")
+                listed = self.browser.run("return [...document.querySelectorAll('#equations tbody tr')].map((row) => "
+                                          "[...row.children].map((cell) => cell.textContent))")
                 for name, *_ in self.tunables():
                     self.assertTrue(any(row[0] == name and row[-1] for row in listed), name)
                 for i, (name, value, least, most) in enumerate(self.tunables()):
@@ -517,7 +551,8 @@ class Pages(unittest.TestCase):
 
     def assert_simulates_again(self, network):
         motion = self.write("handed_out.csv", self.browser.run(DOWNLOADED))
-        done = subprocess.run([DASHPOT, "simulate", str(network), "--input", str(motion)], capture_output=True, text=True, timeout=60,
+        done = subprocess.run([DASHPOT, "simulate", str(network), "--input", str(motion)], capture_output=True,
+                              text=True, timeout=60,
                               check=True)
         self.assertEqual(columns(self.handed_out(), "double"), columns(done.stdout, "double"))
 
@@ -542,9 +577,11 @@ class Pages(unittest.TestCase):
     def test_motions_that_are_refused(self):
         """Fails if an upload that `dashpot simulate` refuses is taken, or is refused without a word."""
         self.open(FIG_5)
-        for text, said in {"time,place\n0,1\n": "no column 'position'; its name may also be 'pos', 'displacement'", "time,position\n0,0\n0.001,x\n": "a finite number is expected",
+        for text, said in {"time,place\n0,1\n": "no column 'position'; its name may also be 'pos', 'displacement'",
+                           "time,position\n0,0\n0.001,x\n": "a finite number is expected",
                            "time,position\n0,0\n0.001,1\n0.003,1\n0.004,1\n": "a uniform period", "": "no rows",
-                           "time,position\n0,0\n0.002,1\n": "--rate 500", "time,position\n0,0,0\n": "row 2 has 3 fields",
+                           "time,position\n0,0\n0.002,1\n": "--rate 500",
+                           "time,position\n0,0,0\n": "row 2 has 3 fields",
                            "time,position,time\n0,0,0\n": "there twice"}.items():
             self.upload(text)
             self.wait_for(said)
@@ -554,17 +591,20 @@ class Pages(unittest.TestCase):
         """Fails if a page is wider than a phone, stays light in dark mode, or is not drawn anew for paper."""
         for network in [FIG_5, SOURCE / "networks/paper/generalised_kelvin_four.json"]:
             self.open(network)
-            self.browser.devtools("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=3, mobile=True)
+            self.browser.devtools("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=3,
+                                  mobile=True)
             self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
             self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 390)
             self.assert_cues()
             colours = []
             for scheme in ["light", "dark"]:
-                self.browser.devtools("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+                self.browser.devtools("Emulation.setEmulatedMedia",
+                                      features=[{"name": "prefers-color-scheme", "value": scheme}])
                 colours.append(self.browser.run("return getComputedStyle(document.documentElement).backgroundColor"))
             self.assertNotEqual(*colours)
             self.browser.run("dispatchEvent(new Event('beforeprint'))")
-            self.assertEqual(self.browser.run("return getComputedStyle(document.documentElement).backgroundColor"), colours[0])
+            self.assertEqual(self.browser.run("return getComputedStyle(document.documentElement).backgroundColor"),
+                             colours[0])
             self.browser.run("dispatchEvent(new Event('afterprint'))")
             self.assertGreater(len(self.browser.devtools("Page.printToPDF")["data"]), 20_000)
             self.browser.devtools("Emulation.setEmulatedMedia", features=[])
@@ -572,7 +612,8 @@ class Pages(unittest.TestCase):
 
     def assert_cues(self):
         """What is wider than the page says so at its edge, and no longer when it is scrolled to its end."""
-        self.browser.run("dispatchEvent(new Event('resize')); return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
+        self.browser.run("dispatchEvent(new Event('resize')); return new Promise((done) => requestAnimationFrame(() => "
+                         "requestAnimationFrame(() => done())))")
         wide = self.browser.run("""return Promise.all([...document.querySelectorAll('.wide')].filter((part) => part.scrollWidth > part.clientWidth + 1)
           .map(async (part) => {
             const states = [part.matches('.more-right:not(.more-left)') && getComputedStyle(part).maskImage !== 'none'];
@@ -586,11 +627,16 @@ class Pages(unittest.TestCase):
         self.assertTrue(all(wide), wide)
 
     def test_nothing_runs_off_a_phone(self):
-        """Fails if labels of candidates that agree, or a name or a source of one long word, make a page wider than a phone."""
-        self.browser.devtools("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1, mobile=True)
+        """Fails if labels of candidates that agree, or a name or a source of one long word, make a page wider than a
+        phone."""
+        self.browser.devtools("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1,
+                              mobile=True)
         self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
-        examples = [SOURCE / "examples" / name for name in ["breast_palpation", "knob_on_board", "needle_in_layers", "tunable_wall"]]
-        long = FIG_10.replace('"title"', f'"source": "{"source" * 20}", "title"').replace('"Y"', '"muscle_with_a_very_long_name_indeed"')
+        examples = [SOURCE / "examples" / name for name in ["breast_palpation", "knob_on_board", "needle_in_layers",
+                                                            "tunable_wall"]]
+        long = FIG_10.replace('"title"',
+                              f'"source": "{"source" * 20}", "title"').replace('"Y"',
+                                                                               '"muscle_with_a_very_long_name_indeed"')
         pages = [(folder / "network.json", ["--device", folder / "device.json"]) for folder in examples]
         for network, choices in [*pages, (self.write("long.json", long), [])]:
             with self.subTest(network=network):
@@ -600,24 +646,32 @@ class Pages(unittest.TestCase):
     def test_the_error_is_seen_on_a_phone(self):
         """Fails if the column of the error is beyond the edge of a phone."""
         self.open(FIG_5, "--device", PANTOGRAPH)
-        self.browser.devtools("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=3, mobile=True)
+        self.browser.devtools("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=3,
+                              mobile=True)
         self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
-        heads = self.browser.run("return [...document.querySelectorAll('#candidates thead th')].map((head) => [head.textContent, head.getBoundingClientRect().right])")
+        heads = self.browser.run("return [...document.querySelectorAll('#candidates thead th')].map((head) => "
+                                 "[head.textContent, head.getBoundingClientRect().right])")
         self.assertLess([right for text, right in heads if "error" in text][0], 390 - 42)  # the edge fades
 
     def test_paper(self):
-        """Fails if a table, a formula or a drawing is cut on paper, a control is printed, or the chart of the error is not there."""
+        """Fails if a table, a formula or a drawing is cut on paper, a control is printed, or the chart of the error is
+        not there."""
         self.open(FIG_5, "--device", PANTOGRAPH)
         self.browser.devtools("Emulation.setEmulatedMedia", media="print")
-        self.browser.devtools("Emulation.setDeviceMetricsOverride", width=673, height=1000, deviceScaleFactor=1, mobile=False)
+        self.browser.devtools("Emulation.setDeviceMetricsOverride", width=673, height=1000, deviceScaleFactor=1,
+                              mobile=False)
         self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
         self.browser.run("dispatchEvent(new Event('beforeprint'))")
         self.addCleanup(self.browser.devtools, "Emulation.setEmulatedMedia", media="")
-        self.assertEqual(self.browser.run("return [...document.querySelectorAll('button, select, input')].filter((part) => part.checkVisibility()).length"), 0)
+        self.assertEqual(self.browser.run("return [...document.querySelectorAll('button, select, "
+                                          "input')].filter((part) => part.checkVisibility()).length"), 0)
         self.assertTrue(self.browser.run("return document.querySelector('#what-is-felt svg').checkVisibility()"))
-        self.assertEqual(self.browser.run("return [...document.querySelectorAll('.wide')].filter((part) => getComputedStyle(part).maskImage !== 'none').length"), 0)
-        beyond = self.browser.run("return [...document.querySelectorAll('main table, main math, main svg')].filter((part) => part.checkVisibility() &&"
-                                  "part.getBoundingClientRect().right > innerWidth + 1).map((part) => part.outerHTML.slice(0, 80))")
+        self.assertEqual(self.browser.run("return [...document.querySelectorAll('.wide')].filter((part) => "
+                                          "getComputedStyle(part).maskImage !== 'none').length"), 0)
+        beyond = self.browser.run("return [...document.querySelectorAll('main table, main math, main "
+                                  "svg')].filter((part) => part.checkVisibility() &&"
+                                  "part.getBoundingClientRect().right > innerWidth + 1).map((part) => "
+                                  "part.outerHTML.slice(0, 80))")
         self.assertEqual(beyond, [])
 
     def test_without_clang(self):

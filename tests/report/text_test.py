@@ -2,8 +2,9 @@
 
     python3 text_test.py --dashpot build/compiler/dashpot [--update]
 
-Each file of texts/ is the page of one network of each shape without its style, scripts and live part: a line for each block of the page,
-labels of drawings and plots included, curves not. A difference is shown as a diff and fails; --update writes them anew.
+Each file of texts/ is the page of one network of each shape without its style, scripts and live part: a line for each
+block of the page, labels of drawings and plots included, curves not. A difference is shown as a diff and fails;
+--update writes them anew.
 """
 import html.parser
 import os
@@ -72,7 +73,8 @@ def page_of(dashpot, arguments):
     with tempfile.TemporaryDirectory() as folder:
         page = pathlib.Path(folder) / "report.html"
         # The live part is left out anyway, and the compiler for it takes longer than everything else.
-        subprocess.run([dashpot, "report", *map(str, arguments), "-o", page], cwd=SOURCE, check=True, stderr=subprocess.DEVNULL,
+        subprocess.run([dashpot, "report", *map(str, arguments), "-o", page], cwd=SOURCE, check=True,
+                       stderr=subprocess.DEVNULL,
                        timeout=60, env={**os.environ, "DASHPOT_CLANG": "/nowhere"})
         return page.read_text()
 

@@ -3,11 +3,11 @@
 
     tests/style/count_lines.py [BEFORE] [AFTER] [--list tunable|contact|networked]
 
-Both default to the files as they are now. Counted are the .cpp, .hpp and .def files of compiler/ and runtime/, formatted by the
-.clang-format of today, whatever they looked like in their commit, so that a line means the same before and after. A line of
-code holds more than blanks and comments. A line decides by a kind of network if it has a condition (if, while, ?:, &&, ||,
-get_if, holds_alternative) and a name that tells the kind, strings and comments aside. That is a measure, not a proof: a name
-that is chosen badly escapes it, and one condition over two lines counts twice.
+Both default to the files as they are now. Counted are the .cpp, .hpp and .def files of compiler/ and runtime/,
+formatted by the .clang-format of today, whatever they looked like in their commit, so that a line means the same before
+and after. A line of code holds more than blanks and comments. A line decides by a kind of network if it has a condition
+(if, while, ?:, &&, ||, get_if, holds_alternative) and a name that tells the kind, strings and comments aside. That is a
+measure, not a proof: a name that is chosen badly escapes it, and one condition over two lines counts twice.
 """
 import argparse
 import io

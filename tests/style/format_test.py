@@ -3,9 +3,11 @@ that asks of what kind an element is to one way.
 
     python3 format_test.py
 
-Comments that clang-format does not wrap, and a string that nobody has broken, can be longer: they fail here. What stands in a raw
-string is left as it is written: a network in a test reads best in its own lines.
+Comments that clang-format does not wrap, and a string that nobody has broken, can be longer: they fail here, as lines
+of Python do. What stands in a raw string, or in three quotes, is left as it is written: a network in a test reads best
+in its own lines.
 """
+import ast
 import pathlib
 import re
 import shlex
@@ -23,7 +25,8 @@ RAW_STRING = re.compile(r'R"(\w*)\(.*?\)\1"', re.DOTALL)
 
 def sources():
     """C++ of the project's own, and its messages; generated/ looks as the compiler writes it."""
-    return [path for folder in ("compiler", "examples", "runtime", "tests") for path in sorted((ROOT / folder).rglob("*"))
+    return [path for folder in ("compiler", "examples", "runtime", "tests")
+            for path in sorted((ROOT / folder).rglob("*"))
             if path.suffix in {".cpp", ".hpp", ".def"}]
 
 
@@ -47,6 +50,23 @@ def raw_string_lines(text):
             for number in range(text.count("\n", 0, match.start()) + 1, text.count("\n", 0, match.end()) + 2)}
 
 
+def python_sources():
+    return [path for folder in ("compiler", "examples", "runtime", "tests")
+            for path in sorted((ROOT / folder).rglob("*.py"))]
+
+
+def python_text_lines(text):
+    """Numbers of the lines that hold a part of a string in three quotes, but for docstrings."""
+    tree = ast.parse(text)
+    documented = (ast.Module, ast.ClassDef, ast.FunctionDef)
+    docstrings = {id(node.body[0].value) for node in ast.walk(tree)
+                  if isinstance(node, documented) and isinstance(node.body[0], ast.Expr)}
+    return {number for node in ast.walk(tree)
+            if isinstance(node, (ast.Constant, ast.JoinedStr)) and id(node) not in docstrings
+            and '"""' in ast.get_source_segment(text, node)
+            for number in range(node.lineno, node.end_lineno + 1)}
+
+
 class Style(unittest.TestCase):
     # Fails if a source is not as clang-format leaves it.
     def test_format(self):
@@ -61,11 +81,12 @@ class Style(unittest.TestCase):
     # Fails if a line has to be scrolled to be read.
     def test_columns(self):
         longer = []
-        for path in sources():
+        for path in [*sources(), *python_sources()]:
             text = path.read_text()
-            raw = raw_string_lines(text)
+            as_written = python_text_lines(text) if path.suffix == ".py" else raw_string_lines(text)
             longer += [f"{path.relative_to(ROOT)}:{number}: {columns(line)} columns"
-                       for number, line in enumerate(text.split("\n"), 1) if columns(line) > COLUMNS and number not in raw]
+                       for number, line in enumerate(text.split("\n"), 1)
+                       if columns(line) > COLUMNS and number not in as_written]
         self.assertEqual(longer, [], f"lines longer than {COLUMNS} columns")
 
     # Fails if code asks of an element's kind in a way that a new kind passes in silence.

@@ -6,7 +6,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = {"theory": ROOT / "compiler/theory.md", "architecture": ROOT / "compiler/architecture.md"}
 SUFFIXES = {".cpp", ".hpp", ".def", ".py", ".in", ".js"}
-# "theory, section 6a", "theory's", "theory, sections 3 and 4", 'theory, section 5, "Not a tree"', over the end of a line too.
+# "theory, section 6a", "theory's", "theory, sections 3 and 4", 'theory, section 5, "Not a tree"', over the end of a
+# line too.
 CITED = re.compile(r"\b(theory|architecture)(?:\.md)?(?:['’]s)?,?\s(?:sections?\s)?(\d[a-c]?(?:\([a-c]\))?)"
                    r"(?:\sand\s(\d[a-c]?))?(?:,\s\"([^\"]+)\")?", re.IGNORECASE)
 LINE_ENDS = re.compile(r"\n\s*(?://|#|\*)?\s*")
@@ -49,13 +50,15 @@ class References(unittest.TestCase):
                     count += 1
                     titles = known[page].get(section)
                     if titles is None or (title is not None and title not in titles):
-                        wrong.append(f"{path.relative_to(ROOT)}: {page}, section {section}" + (f', "{title}"' if title else ""))
+                        wrong.append(f"{path.relative_to(ROOT)}: {page}, section {section}" +
+                                     (f', "{title}"' if title else ""))
         self.assertEqual(wrong, [])
         self.assertGreater(count, 60)
 
     # Fails if a citation is passed over because of how it is written.
     def test_what_a_citation_is(self):
-        text = ('// (theory, section\n// 5, "Not a tree") and theory, sections 3 and 4; theory 6a: x; (theory.md, section 6(c));\n'
+        text = ('// (theory, section\n// 5, "Not a tree") and theory, sections 3 and 4; theory 6a: x; (theory.md, '
+                'section 6(c));\n'
                 "// Theory, section 5: rigid; theory section 2; architecture, section 3\n")
         self.assertEqual(list(citations(text)), [
             ("theory", "5", "Not a tree"), ("theory", "3", None), ("theory", "4", None), ("theory", "6a", None),

@@ -13,17 +13,20 @@ FLAGS_CXX = ["-std=c++17", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-stat
 
 def compiling(processor, *folders):
     """Words behind arm-none-eabi-g++, with these folders of headers, the runtime's, and those of the tests."""
-    return [*FLAGS, *FLAGS_CXX, *PROCESSORS[processor][0], *(f"-I{folder}" for folder in [*folders, SOURCE / "runtime/include", SOURCE / "tests"])]
+    return [*FLAGS, *FLAGS_CXX, *PROCESSORS[processor][0],
+            *(f"-I{folder}" for folder in [*folders, SOURCE / "runtime/include", SOURCE / "tests"])]
 
 
 def linking(source, program):
     """Words behind those of compiling(): one source as a program for QEMU's boards."""
-    return ["-nostdlib", "-nostartfiles", "-T", FIRMWARE / "mps2_an386.ld", source, FIRMWARE / "startup.cpp", "-lc", "-lgcc", "-o", program]
+    return ["-nostdlib", "-nostartfiles", "-T", FIRMWARE / "mps2_an386.ld", source, FIRMWARE / "startup.cpp", "-lc",
+            "-lgcc", "-o", program]
 
 
 def printed(program, machine, timeout=100):
     """What it prints over semihosting until it ends."""
     return subprocess.run(
-        ["qemu-system-arm", "-M", machine, "-nographic", "-monitor", "none", "-serial", "none", "-chardev", "stdio,id=s0",
+        ["qemu-system-arm", "-M", machine, "-nographic", "-monitor", "none", "-serial", "none", "-chardev",
+         "stdio,id=s0",
          "-semihosting-config", "enable=on,target=native,chardev=s0", "-icount", "shift=0", "-kernel", str(program)],
         capture_output=True, text=True, timeout=timeout, check=True).stdout

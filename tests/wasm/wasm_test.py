@@ -57,7 +57,8 @@ class WasmTest(unittest.TestCase):
         self.folder = pathlib.Path(temporary.name)
 
     def dashpot(self, *words, status=0, **environment):
-        done = subprocess.run([DASHPOT, *map(str, words)], capture_output=True, text=True, env={**os.environ, **environment})
+        done = subprocess.run([DASHPOT, *map(str, words)], capture_output=True, text=True,
+                              env={**os.environ, **environment})
         self.assertEqual(done.returncode, status, done.stderr)
         return done
 
@@ -91,10 +92,13 @@ class Bits(WasmTest):
         """What Node.js computes, compared with what the compiler's own account of the law prints."""
         self.dashpot("compile", network, "--target", "wasm", "-o", self.folder / "laws", *choices, *only_compile)
         name = json.loads(network.read_text())["name"]
-        motion = {"position": self.motion(), "velocity": self.motion(seed=9) if velocity else None, "values": values or {}}
-        played = json.loads(self.node(f"{PLAY}\nconsole.log(JSON.stringify(await play('./laws/{name}/index.js', {json.dumps(motion)})));"))
+        motion = {"position": self.motion(), "velocity": self.motion(seed=9) if velocity else None, "values": values
+                  or {}}
+        played = json.loads(self.node(f"{PLAY}\nconsole.log(JSON.stringify(await play('./laws/{name}/index.js', "
+                                      f"{json.dumps(motion)})));"))
         self.assertEqual(played["name"], name)
-        columns = {"time": [k / played["rate"] for k in range(len(motion["position"]))], "position": motion["position"], **motion["values"]}
+        columns = {"time": [k / played["rate"] for k in range(len(motion["position"]))], "position": motion["position"],
+                   **motion["values"]}
         if velocity:
             columns["velocity"] = motion["velocity"]
         wanted = self.simulated(network, columns, *choices)
@@ -108,11 +112,13 @@ class Bits(WasmTest):
         return name, motion, played
 
     def test_node(self):
-        """Fails if a bit differs from what `dashpot simulate` computes, in double or in float, with slips, tunables or a device."""
+        """Fails if a bit differs from what `dashpot simulate` computes, in double or in float, with slips, tunables or
+        a device."""
         parameters = json.loads(TUNABLE.read_text())["parameters"]
         chance = random.Random(2)
         values = {}
-        for name in (name for name, parameter in parameters.items() if isinstance(parameter, dict) and parameter.get("tunable")):
+        for name in (name for name, parameter in parameters.items() if isinstance(parameter, dict)
+                     and parameter.get("tunable")):
             low, high = (float(parameters[name][end].split()[0]) for end in ("min", "max"))
             values[name] = [v for v in (chance.uniform(low, high) for _ in range(15)) for _ in range(20)]
         self.assertTrue(values)
@@ -141,7 +147,8 @@ class Bits(WasmTest):
         self.dashpot("compile", FIG_5, "--target", "wasm", "-o", self.folder)
         self.dashpot("report", FIG_5, "-o", self.folder / "page.html")
         encoded = re.search(r'"module":"([A-Za-z0-9+/=]+)"', (self.folder / "page.html").read_text())[1]
-        self.assertEqual(base64.b64decode(encoded), (self.folder / "second_order_maxwell/second_order_maxwell.wasm").read_bytes())
+        self.assertEqual(base64.b64decode(encoded),
+                         (self.folder / "second_order_maxwell/second_order_maxwell.wasm").read_bytes())
 
 
 class Wrapper(WasmTest):
@@ -212,10 +219,12 @@ class Wrapper(WasmTest):
         """
         (self.folder / "package.json").write_text('{ "type": "module" }')
 
-        wrong = ["law.set({ softness: 1 });", "other.set({ K1: 1 });", "law.step(1);", "law.leadFrom(0);", "new fixed.Law();",
+        wrong = ["law.set({ softness: 1 });", "other.set({ K1: 1 });", "law.step(1);", "law.leadFrom(0);",
+                 "new fixed.Law();",
                  "now.torque;", "law.simulate([0], null, { values: { K1: 1 } });"]
         (self.folder / "main.ts").write_text(good + "".join(f"\n// @ts-expect-error\n{line}" for line in wrong))
-        done = subprocess.run([TSC, "--strict", "--noEmit", "--target", "es2022", "--module", "node16", "--moduleResolution", "node16",
+        done = subprocess.run([TSC, "--strict", "--noEmit", "--target", "es2022", "--module", "node16",
+                               "--moduleResolution", "node16",
                                "--lib", "es2022,dom", "main.ts"], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual((done.stdout, done.returncode), ("", 0))
 
@@ -223,8 +232,10 @@ class Wrapper(WasmTest):
 class Refusals(WasmTest):
     def test_compiler(self):
         """Fails if a clang that is missing is not said, with what would do, or something is written."""
-        done = self.dashpot("compile", FIG_5, "--target", "wasm", "-o", self.folder / "out", status=1, DASHPOT_CLANG="/nowhere/clang++")
-        self.assertIn("error: no WebAssembly is made of 'second_order_maxwell': '/nowhere/clang++' cannot be started [no-web-module]",
+        done = self.dashpot("compile", FIG_5, "--target", "wasm", "-o", self.folder / "out", status=1,
+                            DASHPOT_CLANG="/nowhere/clang++")
+        self.assertIn("error: no WebAssembly is made of 'second_order_maxwell': '/nowhere/clang++' cannot be started "
+                      "[no-web-module]",
                       done.stderr)
         self.assertIn("DASHPOT_CLANG names another clang++", done.stderr)
         self.assertFalse((self.folder / "out").exists())

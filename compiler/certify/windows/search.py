@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the tables beside it: the least damping that an adaptive window needs, and a storage function. Needs cvxopt."""
+"""Writes the tables beside it: the least damping that an adaptive window needs, and a storage function. Needs
+cvxopt."""
 import math
 import pathlib
 import textwrap
@@ -59,7 +60,8 @@ def entry(fit, sign, delay, longest):
     b, P = solve(fit, sign, delay, longest)
     states = len(P)
     for i in range(states): P[i][i] += STRICTNESS * (states - i)
-    numbers = [math.ceil((b + STRICTNESS * (states + 1)) * 2**DIGITS)] + [round(value * 2**DIGITS) for row in P for value in row]
+    numbers = [math.ceil((b + STRICTNESS * (states + 1)) * 2**DIGITS)]
+    numbers += [round(value * 2**DIGITS) for row in P for value in row]
     return textwrap.fill(f"delay {delay}, longest {longest}: " + " ".join(map(str, numbers)), 120)
 
 

@@ -3,10 +3,10 @@
     tissue = dashpot.compile("networks/paper/second_order_maxwell.json")
     response = tissue.simulate(t, u)
 
-Each function starts the command `dashpot`: the one that was installed with this package, or $DASHPOT, or the one on the path.
-A network or a device is a path, or a dictionary with what its file would hold. Options are those of the command line, with
-underscores: `compile(network, rate=4000, set={"K1": "200 N/m"}, uncertified=True)`. What the command refuses is raised as
-`Refusal`, in its own words; what it warns of is a `Warned` warning.
+Each function starts the command `dashpot`: the one that was installed with this package, or $DASHPOT, or the one on the
+path. A network or a device is a path, or a dictionary with what its file would hold. Options are those of the command
+line, with underscores: `compile(network, rate=4000, set={"K1": "200 N/m"}, uncertified=True)`. What the command refuses
+is raised as `Refusal`, in its own words; what it warns of is a `Warned` warning.
 """
 import importlib.util
 import itertools
@@ -44,7 +44,8 @@ def _command() -> str:
         found = shutil.which(candidate)
         if found:
             return found
-    raise FileNotFoundError(f"there is no command '{named or 'dashpot'}'; install dashpot, or name it in the variable DASHPOT")
+    raise FileNotFoundError(
+        f"there is no command '{named or 'dashpot'}'; install dashpot, or name it in the variable DASHPOT")
 
 
 def _words(options) -> list:
@@ -110,16 +111,17 @@ def _rate_of(time) -> float:
     wrong = numpy.abs(steps - median) > _SAME_RATE * median + rounding
     if numpy.any(wrong):
         row = int(numpy.argmax(wrong)) + 1
-        raise ValueError(f"t has steps of {median:g} s but for row {row}, {steps[row - 1]:g} s after the one before; one period "
-                         "throughout is expected")
+        raise ValueError(f"t has steps of {median:g} s but for row {row}, {steps[row - 1]:g} s after the one before; "
+                         "one period throughout is expected")
     period = (time[-1] - time[0]) / len(steps)
     rate = 1 / period
-    return float(round(rate)) if round(rate) and abs(rate - round(rate)) <= _SAME_RATE * rate else 1 / float(f"{period:.7g}")
+    nearest = float(round(rate))
+    return nearest if nearest and abs(rate - nearest) <= _SAME_RATE * rate else 1 / float(f"{period:.7g}")
 
 
 class Network:
-    """A compiled network. `law()` is its law for a loop at `rate`; `simulate()` compiles it again for a motion at another
-    rate, where neither `rate` nor a device was asked for."""
+    """A compiled network. `law()` is its law for a loop at `rate`; `simulate()` compiles it again for a motion at
+    another rate, where neither `rate` nor a device was asked for."""
 
     def __init__(self, network, device=None, **options):
         self._folder = _Folder()
@@ -168,8 +170,8 @@ class Network:
         return self.package.explain()
 
     def simulate(self, t, u, velocity=None, values=None) -> Simulated:
-        """The law, at rest at 0, led along the positions `u` at the times `t`, all at one period. Without velocities each is the
-        difference to the row before over the period. `values` has arrays of parameters by name."""
+        """The law, at rest at 0, led along the positions `u` at the times `t`, all at one period. Without velocities
+        each is the difference to the row before over the period. `values` has arrays of parameters by name."""
         time = numpy.asarray(t, dtype=numpy.float64)
         law = self._at(_rate_of(time)).Law()
         position = numpy.asarray(u)
@@ -187,7 +189,8 @@ def compile(network, *, device=None, **options) -> Network:
 def explain(network, *, device=None, **options) -> dict:
     """What `dashpot explain --json` says of a network: its canonical form, the candidates, and the choice."""
     folder = _Folder()
-    return json.loads(_call("explain", folder.file(network, "network.json"), *folder.choices(device, options), "--json"))
+    return json.loads(_call("explain", folder.file(network, "network.json"), *folder.choices(device, options),
+                            "--json"))
 
 
 class Fit(NamedTuple):
@@ -212,10 +215,11 @@ def _recording(recording, folder, number) -> str:
 
 
 def fit(*recordings, **options) -> Fit:
-    """A network fitted to recordings: paths of tables, or dictionaries of arrays whose names say what they are, with units,
-    as {"time [s]": t, "position [m]": u, "force [N]": f}."""
+    """A network fitted to recordings: paths of tables, or dictionaries of arrays whose names say what they are, with
+    units, as {"time [s]": t, "position [m]": u, "force [N]": f}."""
     folder = _Folder()
     tables = [_recording(recording, folder, number) for number, recording in enumerate(recordings)]
     output = folder.path / "fitted.json"
-    report = json.loads(_call("fit", *tables, *_words(dict({"name": "fitted"}, **options)), "--json", "-o", str(output)))
+    report = json.loads(_call("fit", *tables, *_words(dict({"name": "fitted"}, **options)), "--json", "-o",
+                              str(output)))
     return Fit(json.loads(output.read_text(encoding="utf-8")), report)

@@ -1,11 +1,11 @@
 """The least time in which a step can be done on a machine, from what its instructions cost (machine.cpp measures that).
 
 A chain: the harness feeds a force into the next sample, by a fused multiplication (or multiply + add), then
-  linear networks  m = (S + k0 u) + G v: with fused multiplications one of the two inputs passes both: 2 fused; without them a
-                   product and two sums: multiply + 2 add;
+  linear networks  m = (S + k0 u) + G v: with fused multiplications one of the two inputs passes both: 2 fused; without
+                   them a product and two sums: multiply + 2 add;
   Fig. 10          t = F + K (u - u'), clamped from both sides: add + fused (or add + multiply + add), then 2 least.
-Many branches: each has to load its force, its decay and its gain and to store its force, so a step lasts as long as the loads or as
-the stores, whichever are longer, when nothing else does.
+Many branches: each has to load its force, its decay and its gain and to store its force, so a step lasts as long as the
+loads or as the stores, whichever are longer, when nothing else does.
 """
 
 WIDTH = {"sse2": 2, "avx2": 4, "avx512": 8}  # doubles a vector

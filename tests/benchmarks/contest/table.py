@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""table.py BUILD_FOLDER [--targets sse2,avx2,avx512] [--networks REGEX] [--repetitions 9]: the contest's table for this machine.
+"""table.py BUILD_FOLDER [--targets sse2,avx2,avx512] [--networks REGEX] [--repetitions 9]: the contest's table for this
+machine.
 
-Builds and runs the contest of each target that this processor has: equality first, then times (medians of the repetitions, in random order within
-one process), then instructions under callgrind (which has no AVX-512), and the size of each step's code.
+Builds and runs the contest of each target that this processor has: equality first, then times (medians of the
+repetitions, in random order within one process), then instructions under callgrind (which has no AVX-512), and the size
+of each step's code.
 """
 import argparse
 import json
@@ -31,7 +33,8 @@ def arguments():
 def times(program, networks, repetitions):
     """{title: {measure: seconds}}"""
     run = subprocess.run(
-        [program, f"--benchmark_repetitions={repetitions}", "--benchmark_enable_random_interleaving=true", "--benchmark_min_time=0.005",
+        [program, f"--benchmark_repetitions={repetitions}", "--benchmark_enable_random_interleaving=true",
+         "--benchmark_min_time=0.005",
          f"--benchmark_filter=^(machine|nothing|({networks}))", "--benchmark_format=json"],
         stdout=subprocess.PIPE, check=True, text=True)
     samples = {}
@@ -62,12 +65,14 @@ def instructions(program):
 def code_bytes(program):
     """{title: bytes of the step's own function}"""
     sizes = {}
-    for line in subprocess.run(["nm", "-S", program], stdout=subprocess.PIPE, check=True, text=True).stdout.splitlines():
+    for line in subprocess.run(["nm", "-S", program], stdout=subprocess.PIPE, check=True,
+                               text=True).stdout.splitlines():
         words = line.split()
         if len(words) == 4:
             sizes[int(words[0], 16)] = int(words[1], 16)
     found = {}
-    for line in subprocess.run([program, "--places"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True, text=True).stdout.splitlines():
+    for line in subprocess.run([program, "--places"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True,
+                               text=True).stdout.splitlines():
         title, *functions = line.split("\t")
         found[title] = sum(sizes[int(place, 16)] for place in functions)
     return found
@@ -82,14 +87,18 @@ def print_network(network, rows, harness, machine, target, counts, sizes):
     best = {m: min(rows[title][m] for title in by_hand) for m in MEASURES}
     fewest = min((counts[title] for title in by_hand if title in counts), default=None)
     limit = limits.chain(network, machine, target)
-    print(f"\n### {network}, {target}: chain at least {shown(limit)} ns, {shown(limits.harness(machine))} of them the harness\n")
-    print("| | chain [ns] | to hand | to limit | throughput [ns] | to hand | cold tick [ns] | input to command [ns] | instructions | code [bytes] |")
+    print(f"\n### {network}, {target}: chain at least {shown(limit)} ns, {shown(limits.harness(machine))} of them the "
+          f"harness\n")
+    print("| | chain [ns] | to hand | to limit | throughput [ns] | to hand | cold tick [ns] | input to command [ns] | "
+          "instructions | code [bytes] |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     for title, row in sorted(rows.items(), key=lambda item: item[1]["chain"]):
         net = {m: row[m] - (harness[m] if m in ("cold", "latency") else 0) for m in MEASURES}
         count = counts.get(title)
-        cells = [title.split("/", 1)[1], shown(row["chain"]), f"{row['chain'] / best['chain']:.2f}", f"{row['chain'] / limit:.2f}",
-                 shown(row["throughput"]), f"{row['throughput'] / best['throughput']:.2f}", f"{1e9 * net['cold']:.0f}", shown(net["latency"]),
+        cells = [title.split("/", 1)[1], shown(row["chain"]), f"{row['chain'] / best['chain']:.2f}",
+                 f"{row['chain'] / limit:.2f}",
+                 shown(row["throughput"]), f"{row['throughput'] / best['throughput']:.2f}", f"{1e9 * net['cold']:.0f}",
+                 shown(net["latency"]),
                  "–" if count is None else str(count), str(sizes.get(title, "–"))]
         print("| " + " | ".join(cells) + " |")
     if fewest is not None:
@@ -106,7 +115,8 @@ def main():
         if FLAGS[target] not in flags:
             print(f"\n{target}: this processor has none")
             continue
-        subprocess.run(["cmake", "--build", options.build, "--target", f"contest_{target}"], stdout=sys.stderr, check=True)
+        subprocess.run(["cmake", "--build", options.build, "--target", f"contest_{target}"], stdout=sys.stderr,
+                       check=True)
         found = times(program, options.networks, options.repetitions)
         counts = instructions(program) if target != "avx512" else {}
         sizes = code_bytes(program)

@@ -14,7 +14,8 @@ from cortex_m import printed  # noqa: E402
 def main():
     processor, machine, program, host = sys.argv[1:]
     board = [line.split() for line in printed(program, machine).splitlines()]
-    expected = [line.split() for line in subprocess.run([host], capture_output=True, text=True, check=True).stdout.splitlines()]
+    expected = [line.split() for line in subprocess.run([host], capture_output=True, text=True,
+                                                        check=True).stdout.splitlines()]
     different = [name for (name, trace, _), twin in zip(board, expected, strict=True) if [name, trace] != twin]
     for name, _, instructions in board:
         print(f"instructions per step on {processor}, {name}: {instructions}")

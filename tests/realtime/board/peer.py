@@ -5,8 +5,8 @@
     peer.py --pty           opens a pseudo-terminal, prints the path of its far end, and serves that
     peer.py --arm …         the same with two axes
 
-Its handle moves by itself: 3 counts a sample upwards until 500, then down again, and so on; each joint of the arm likewise,
-from where it is when switched on. In the end it prints what the host has left it with.
+Its handle moves by itself: 3 counts a sample upwards until 500, then down again, and so on; each joint of the arm
+likewise, from where it is when switched on. In the end it prints what the host has left it with.
 """
 import argparse
 import math
@@ -28,7 +28,8 @@ IDLE, RUNNING, SAFE = 0, 1, 2
 HOST_SILENT, BAD_COMMAND, COMMANDS_ANEW = 1, 2, 6
 ON_COMMAND, FREE_RUNNING = 0, 1
 HOST, OWN_MODEL = 0, 1
-ACCEPTED, PERIOD_TOO_SHORT, WATCHDOG_NEEDED, DAMPING_OUT_OF_RANGE, NO_MODEL, NO_SUCH_CHOICE, SPEED_LIMIT_WRONG = 0, 1, 2, 3, 4, 6, 7
+ACCEPTED, PERIOD_TOO_SHORT, WATCHDOG_NEEDED, DAMPING_OUT_OF_RANGE, NO_MODEL = range(5)
+NO_SUCH_CHOICE, SPEED_LIMIT_WRONG = 6, 7
 
 SHORTEST_PERIOD = 500_000  # [ns]
 
@@ -167,8 +168,10 @@ class Board:
         for kind, sequence, payload in self.decoder.feed(data):
             if kind == HELLO:
                 self.send(frame(drives.description,
-                                struct.pack(f"<{joints}d{joints}f{brakes}fIIB{drives.name_size}s", *drives.encoder_steps,
-                                            *drives.max_torques, *drives.max_dampings, SHORTEST_PERIOD, 0, drives.motion,
+                                struct.pack(f"<{joints}d{joints}f{brakes}fIIB{drives.name_size}s",
+                                            *drives.encoder_steps,
+                                            *drives.max_torques, *drives.max_dampings, SHORTEST_PERIOD, 0,
+                                            drives.motion,
                                             b"peer.py")))
             elif kind == drives.configure:
                 period, *numbers = struct.unpack(f"<I{brakes}f{joints}fHBB", payload)
@@ -247,7 +250,8 @@ class Board:
         counts = [first + moved for first in self.drives.first_counts]
         joints, brakes = self.joints, self.brakes
         self.send(frame(self.drives.sample,
-                        struct.pack(f"<Q{joints}Q{joints}i{joints}f{brakes}fIHBB", time.monotonic_ns(), *[0] * joints, *counts,
+                        struct.pack(f"<Q{joints}Q{joints}i{joints}f{brakes}fIHBB", time.monotonic_ns(), *[0] * joints,
+                                    *counts,
                                     *self.torques, *self.dampings, self.commands.newest or 0, self.stops, self.state,
                                     self.cause),
                         self.samples & 0xFFFFFFFF))

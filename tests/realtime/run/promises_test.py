@@ -35,7 +35,8 @@ def tests():
     for path in glob.glob(os.path.join(ARGUMENTS.root, "tests", "**", "*"), recursive=True):
         if path.endswith(".cpp"):
             with open(path, encoding="utf-8") as stream:
-                found |= {".".join(names) for names in re.findall(r"^TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\)", stream.read(), re.M)}
+                found |= {".".join(names) for names in re.findall(r"^TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\)",
+                                                                  stream.read(), re.M)}
         elif path.endswith("_test.py"):
             with open(path, encoding="utf-8") as stream:
                 found |= set(re.findall(r"def (test_\w+)", stream.read()))
@@ -61,7 +62,8 @@ class Promises(unittest.TestCase):
     def test_no_sentence_about_safety_is_left_out(self):
         """Fails if a README promises that something is safe, stops or goes safe, and no test is named for it."""
         said = [squeezed(sentence) for sentence, _, _ in rows()]
-        for point in re.findall(r"^\* (.*?)(?=^\* |^$)", read("runtime", "README.md").split("## What the loop does")[1], re.M | re.S):
+        for point in re.findall(r"^\* (.*?)(?=^\* |^$)", read("runtime", "README.md").split("## What the loop does")[1],
+                                re.M | re.S):
             with self.subTest(point=squeezed(point)[:60]):
                 self.assertTrue(any(sentence in squeezed(point) for sentence in said))
 

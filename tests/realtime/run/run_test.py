@@ -82,8 +82,10 @@ class Run(unittest.TestCase):
             self.assertAlmostEqual(float(row["motor_force [N]"]), made, delta=1e-12)
 
     def test_who_reads_along_sees_no_fault_where_none_was(self):
-        """Fails if the line that is printed while the loop runs counts faults that nobody had, or leaves out how it ended."""
-        result = dashpot("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"), "--for", "2.5", "--fast", "--log", self.log)
+        """Fails if the line that is printed while the loop runs counts faults that nobody had, or leaves out how it
+        ended."""
+        result = dashpot("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"), "--for", "2.5",
+                         "--fast", "--log", self.log)
         lines = [line for line in result.stdout.splitlines() if " Hz  late " in line]
         self.assertEqual([line.split(" s ")[0].strip() for line in lines], ["1.0", "2.0", "2.5"], result.stdout)
         for line in lines:
@@ -93,20 +95,24 @@ class Run(unittest.TestCase):
         """Fails if anything but the seed decides a simulated run."""
         logs = [os.path.join(self.folder.name, name) for name in ("a.csv", "b.csv")]
         for log in logs:
-            self.assertEqual(self.run_fast("tissues/human_liver_normal", "pantograph_brake_2009", "--seed", "7", log=log).returncode, 0)
+            self.assertEqual(self.run_fast("tissues/human_liver_normal", "pantograph_brake_2009", "--seed", "7",
+                                           log=log).returncode, 0)
         with open(logs[0], "rb") as first, open(logs[1], "rb") as second:
             self.assertEqual(first.read(), second.read())
 
     def test_what_is_not_certified_is_said_before_it_is_driven(self):
         """Fails if a law that its device may not hold is driven without a warning, or one that it holds is warned
         of."""
-        for network_name, device_name, code in [("paper/kelvin", "phantom_single_motor", "drives-uncertified"), ("paper/virtual_wall", "pantograph_brake_2009", "nothing-proved"),
+        for network_name, device_name, code in [("paper/kelvin", "phantom_single_motor", "drives-uncertified"),
+                                                ("paper/virtual_wall", "pantograph_brake_2009", "nothing-proved"),
                                                 ("paper/kelvin", "board_mps2", None)]:
             told = self.run_fast(network_name, device_name).stderr
-            self.assertEqual([found for found in ("drives-uncertified", "nothing-proved") if f"[{found}]" in told], [code] if code else [], told)
+            self.assertEqual([found for found in ("drives-uncertified", "nothing-proved") if f"[{found}]" in told],
+                             [code] if code else [], told)
             if code:
                 self.assertLess(told.index(f"[{code}]"), told.index(": running"))
-                self.assertEqual(told.count("warning:"), len(set(line for line in told.splitlines() if "warning:" in line)))
+                self.assertEqual(told.count("warning:"),
+                                 len(set(line for line in told.splitlines() if "warning:" in line)))
         array = self.run_fast("paper/kelvin", "phantom_single_motor", "--diagnostics=json").stderr
         self.assertIn("drives-uncertified", [found["code"] for found in json.loads(array[array.index("["):])])
 
@@ -128,7 +134,8 @@ class Run(unittest.TestCase):
         self.assertIn("device left safe", output)
 
     def test_nobody_reads_along(self):
-        """Fails if the end of whoever reads what `run` prints ends the program before the device has the safe command."""
+        """Fails if the end of whoever reads what `run` prints ends the program before the device has the safe
+        command."""
         process = subprocess.Popen(command("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"),
                                            "--for", "3", "--fast", "--log", self.log),
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -162,7 +169,8 @@ class Run(unittest.TestCase):
     def test_duration_beyond_counting_is_refused(self):
         """Fails if a run without end is asked for and ends at once, without a period and without a word."""
         for duration in ("1e17", "1e300"):
-            result = dashpot("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"), "--for", duration, "--fast", "--log", self.log)
+            result = dashpot("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"), "--for",
+                             duration, "--fast", "--log", self.log)
             self.assertEqual(result.returncode, 2, result.stdout)
             self.assertIn(f"'{duration}' is longer than 30 years; without --for it runs until Ctrl-C", result.stderr)
             self.assertFalse(os.path.exists(self.log))
@@ -183,7 +191,8 @@ class Run(unittest.TestCase):
         self.assertEqual(peer.stdout.readline(), "left with torque 0, damping 5\n")
 
     def test_two_interrupts_end_a_run_whose_log_nobody_reads(self):
-        """Fails if an unread pipe keeps the program from ending, or the second Ctrl-C comes before the device is safe."""
+        """Fails if an unread pipe keeps the program from ending, or the second Ctrl-C comes before the device is
+        safe."""
         peer, port = self.start_peer()
         unread, log = os.pipe()
         self.addCleanup(os.close, unread)
@@ -216,20 +225,26 @@ class Run(unittest.TestCase):
             self.assertFalse(os.path.exists(self.log))
 
     def test_temporary_folder_that_cannot_be_used(self):
-        """Fails if a TMPDIR that is missing, no folder or not writable counts as a defect, or files go elsewhere than there."""
+        """Fails if a TMPDIR that is missing, no folder or not writable counts as a defect, or files go elsewhere than
+        there."""
         file = os.path.join(self.folder.name, "file")
         open(file, "w").close()
-        for chosen, reason in (("/no/such/folder", "No such file or directory"), (file, "Not a directory"), ("/proc", "No such file or directory")):
+        for chosen, reason in (("/no/such/folder", "No such file or directory"), (file, "Not a directory"),
+                               ("/proc", "No such file or directory")):
             work = os.path.join(self.folder.name, "work")
             os.makedirs(work, exist_ok=True)
-            result = dashpot("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"), "--for", "1", "--fast",
+            result = dashpot("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"), "--for", "1",
+                             "--fast",
                              "--log", self.log, environment={"TMPDIR": chosen}, folder=work)
             self.assertEqual(result.returncode, 1, result.stderr)
-            self.assertIn(f"error: cannot make a folder in '{chosen}': {reason} [cannot-make-folder]\nnote: TMPDIR names", result.stderr)
+            self.assertIn(
+                f"error: cannot make a folder in '{chosen}': {reason} [cannot-make-folder]\nnote: TMPDIR names",
+                result.stderr)
             page = os.path.join(self.folder.name, "page.html")
             result = dashpot("report", network("paper/kelvin"), "-o", page, environment={"TMPDIR": chosen}, folder=work)
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertIn(f"no live response: no folder can be made in '{chosen}': {reason} [no-live-response]\nnote: TMPDIR names", result.stderr)
+            self.assertIn(f"no live response: no folder can be made in '{chosen}': {reason} [no-live-response]\nnote: "
+                          f"TMPDIR names", result.stderr)
             self.assertTrue(os.path.exists(page))
             self.assertEqual(os.listdir(work), [])
 
@@ -238,7 +253,8 @@ class Run(unittest.TestCase):
         result = self.run_fast("paper/kelvin", "phantom_shorted_motor", "--diagnostics", "json", log="/dev/full")
         self.assertEqual(result.returncode, 1)
         errors = [told for told in json.loads(result.stderr[result.stderr.index("["):]) if told["severity"] == "error"]
-        self.assertEqual([(told["code"], told["message"]) for told in errors], [("cannot-write-file", "cannot write '/dev/full': No space left on device")])
+        self.assertEqual([(told["code"], told["message"]) for told in errors],
+                         [("cannot-write-file", "cannot write '/dev/full': No space left on device")])
         self.assertNotIn("log: ", result.stdout)
         self.assertIn("device left safe", result.stdout)
 
@@ -250,14 +266,17 @@ class Run(unittest.TestCase):
         path = os.path.join(self.folder.name, "device.json")
         with open(path, "w") as stream:
             json.dump(described, stream)
-        result = dashpot("run", network(network_name), "--device", path, "--for", "5", "--fast", "--log", self.log, *more)
+        result = dashpot("run", network(network_name), "--device", path, "--for", "5", "--fast", "--log", self.log,
+                         *more)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         with open(self.log, newline="") as stream:
             return [float(row["position [m]"]) for row in csv.DictReader(stream)]
 
     def test_hand_stays_within_the_encoder(self):
-        """Fails if a range that lies to one side of 0 leaves the hand unmoved, throws the tool out of it, or starts with loaded springs without need."""
-        for low, high, hands in ((0, 50, ("relaxed", "firm", "stiff")), (-50, 0, ("relaxed", "firm", "stiff")), (-2, 50, ("relaxed", "stiff"))):
+        """Fails if a range that lies to one side of 0 leaves the hand unmoved, throws the tool out of it, or starts
+        with loaded springs without need."""
+        for low, high, hands in ((0, 50, ("relaxed", "firm", "stiff")), (-50, 0, ("relaxed", "firm", "stiff")),
+                                 (-2, 50, ("relaxed", "stiff"))):
             for hand in hands:
                 with self.subTest(low=low, high=high, hand=hand):
                     positions = self.run_within(low, high, "--hand", hand)
@@ -324,9 +343,11 @@ class Run(unittest.TestCase):
             self.assertTrue(any(float(row["motor_torque [N]"]) != 0 for row in csv.DictReader(stream)))
 
     def test_arm_on_a_socket(self):
-        """Fails if `run --port` does not serve a board of two axes, joint by joint, or does not leave all of it safe."""
+        """Fails if `run --port` does not serve a board of two axes, joint by joint, or does not leave all of it
+        safe."""
         peer, port = self.start_peer("--arm")
-        result = dashpot("run", network("axes/kelvin_field"), "--device", device("arm_board_mps2"), "--for", "1", "--port", port,
+        result = dashpot("run", network("axes/kelvin_field"), "--device", device("arm_board_mps2"), "--for", "1",
+                         "--port", port,
                          "--log", self.log)
         self.assertIn("device left safe", result.stdout, result.stderr)
         self.assertEqual(peer.stdout.readline(), "left with torque 0, 0, damping 0.004, 0.005, 0, 0\n")
@@ -338,13 +359,15 @@ class Run(unittest.TestCase):
             self.assertTrue(all(0 <= moved <= 500 for moved in counts), counts)
             self.assertTrue(any(float(row[f"motor_torque_{joint} [N m]"]) != 0 for row in rows))
             for row in rows[10:]:
-                self.assertAlmostEqual(float(row[f"motor_torque_{joint} [N m]"]), -float(row[f"torque_{joint} [N m]"]), delta=1e-9)
+                self.assertAlmostEqual(float(row[f"motor_torque_{joint} [N m]"]), -float(row[f"torque_{joint} [N m]"]),
+                                       delta=1e-9)
                 self.assertGreater(float(row[f"damping_{joint} [N m s/rad]"]), 0)
 
     def test_board_of_other_axes(self):
         """Fails if a board that has not as many axes as the device is driven, or the user is left to guess why not."""
         peer, port = self.start_peer("--arm")
-        result = dashpot("run", network("paper/kelvin"), "--device", device("board_mps2"), "--for", "1", "--port", port, "--log", self.log)
+        result = dashpot("run", network("paper/kelvin"), "--device", device("board_mps2"), "--for", "1", "--port", port,
+                         "--log", self.log)
         self.assertEqual(result.returncode, 1)
         self.assertIn(f"'{port}': the board has two axes, the device file one [cannot-start-device]", result.stderr)
         self.assertIn("left with torque 0", peer.stdout.readline())
@@ -378,13 +401,15 @@ class Blade(unittest.TestCase):
         self.assertTrue(math.isclose(float(number), damping / 4, rel_tol=1e-5))
         for key in ("max_damping", "damping_per_current_squared"):
             before["brake"][key] = filled["brake"][key]
-        self.assertTrue(filled["source"].startswith(before.pop("source") + "; brake.max_damping by 'dashpot device' from a blade of 1.59 mm"))
+        self.assertTrue(filled["source"].startswith(before.pop("source") +
+                                                    "; brake.max_damping by 'dashpot device' from a blade of 1.59 mm"))
         del filled["source"]
         before["assumed"].append("brake.max_damping")
         self.assertEqual(filled, before)
 
     def test_what_was_said_of_the_brake_before(self):
-        """Fails if a constant of another brake, by which the new one would take another current, is left beside its damping."""
+        """Fails if a constant of another brake, by which the new one would take another current, is left beside its
+        damping."""
         filled = json.loads(self.fill().stdout)
         self.assertNotIn("damping_per_current_squared", filled["brake"])
         self.assertNotIn("brake.damping_per_current_squared", filled["assumed"])
@@ -400,7 +425,8 @@ class Blade(unittest.TestCase):
             with open(path, "w") as stream:
                 json.dump(measured if assumed is None else {**measured, "assumed": assumed}, stream)
             result = dashpot("device", path, *self.WORDS, "--current", "2 A")
-            self.assertEqual(json.loads(result.stdout)["assumed"], ["brake.max_damping", "brake.damping_per_current_squared"])
+            self.assertEqual(json.loads(result.stdout)["assumed"],
+                             ["brake.max_damping", "brake.damping_per_current_squared"])
 
     def test_correction_and_radius_can_be_given(self):
         """Fails if what the user states is overruled."""

@@ -249,12 +249,9 @@ class NetworkBuilder {
   }
 
   bool check_value(const LeafDecl& leaf, const Element& element, const ReadValue& read) {
-    const bool tunable = read.parameter && table_[*read.parameter].tunable;
-    const double least = tunable ? table_[*read.parameter].min : read.value;
-    const double greatest = tunable ? table_[*read.parameter].max : read.value;
-    const bool negative = least < 0;
-    if (!negative && !(leaf.kind == ElementKind::slip && greatest == 0)) return true;
-    if (negative) report_negative(leaf, element, least);
+    const bool negative = read.range.low < 0;
+    if (!negative && !(leaf.kind == ElementKind::slip && read.range.high == 0)) return true;
+    if (negative) report_negative(leaf, element, read.range.low);
     else report_zero_yield(leaf, element);
     if (read.parameter) diagnostics_.note<DiagnosticCode::given_here>(table_.place_of_least(*read.parameter));
     return false;
@@ -279,11 +276,7 @@ class NetworkBuilder {
   }
 
   std::optional<double> read_constant(const ValueDecl& decl, std::string_view taker, const Dimension& due) {
-    const auto value = table_.read(decl, {std::string(taker), due, network_.port_motion});
-    if (!value) return std::nullopt;
-    if (value->parameter && table_[*value->parameter].tunable)
-      diagnostics_.report<DiagnosticCode::tunable_outside_elements>(decl.span, decl.text, taker);
-    return value->value;
+    return table_.read_constant(decl, {std::string(taker), due, network_.port_motion});
   }
 
   Dimension length() const { return network_.port_motion == motion::rotation ? dimensions::angle : dimensions::length; }

@@ -34,20 +34,20 @@ class LadderReader {
     const auto band = read_band(decl.band);
     const auto error = decl.error ? read_error(*decl.error) : std::optional(default_error);
     if (!stiffness || !exponent || !time || !band || !error) return std::nullopt;
-    const std::optional<std::size_t> tunable = is_tunable(*stiffness) ? stiffness->parameter : std::nullopt;
-    const double most = tunable ? table_[*tunable].max : stiffness->value;
+    const double most = stiffness->range.high;
     if (most == 0) return Ladder{0, {}, {}};
     constexpr double turn = 2 * std::numbers::pi;
     SpringpotLadder unit = springpot_ladder(*exponent, turn * band->low, turn * band->high, *error);
-    const double scale = (tunable ? 1 : stiffness->value) * std::pow(*time, *exponent);
+    // Of a tunable stiffness the ladder is that of 1, which its value scales.
+    const double scale = (stiffness->tunable ? 1 : stiffness->value) * std::pow(*time, *exponent);
     for (MaxwellBranch& branch : unit.branches) branch.stiffness *= scale;
-    if (!are_finite(unit.branches, tunable ? most : 1)) {
+    if (!are_finite(unit.branches, stiffness->tunable ? most : 1)) {
       diagnostics_.report<DiagnosticCode::number_too_large>(leaf_.value->span, excerpt(leaf_.value->text));
       return std::nullopt;
     }
     const Springpot springpot{{},         stiffness->value,     *exponent, *time, *band,
                               unit.error, unit.branches.size(), leaf_.span};
-    return Ladder{{}, std::move(unit.branches), springpot, tunable};
+    return Ladder{{}, std::move(unit.branches), springpot, stiffness->tunable};
   }
 
   std::optional<Ladder> read_prony() {
@@ -77,15 +77,12 @@ class LadderReader {
     });
   }
 
-  bool is_tunable(const ReadValue& value) const { return value.parameter && table_[*value.parameter].tunable; }
-
   std::optional<ReadValue> read_springpot_stiffness() {
     if (!leaf_.value) return std::nullopt;
     const auto value = table_.read(*leaf_.value, {"a springpot", stiffness_dimension(), motion_});
     if (!value) return std::nullopt;
-    const double least = is_tunable(*value) ? table_[*value->parameter].min : value->value;
-    if (least >= 0) return value;
-    report_negative_stiffness(*leaf_.value, "a springpot", least);
+    if (value->range.low >= 0) return value;
+    report_negative_stiffness(*leaf_.value, "a springpot", value->range.low);
     if (value->parameter) diagnostics_.note<DiagnosticCode::given_here>(table_.place_of_least(*value->parameter));
     return std::nullopt;
   }
@@ -96,11 +93,7 @@ class LadderReader {
   }
 
   std::optional<double> read_constant(const ValueDecl& decl, std::string_view taker, const Dimension& due) {
-    const auto value = table_.read(decl, {std::string(taker), due, motion_});
-    if (!value) return std::nullopt;
-    if (!value->parameter || !table_[*value->parameter].tunable) return value->value;
-    diagnostics_.report<DiagnosticCode::tunable_outside_elements>(decl.span, decl.text, taker);
-    return std::nullopt;
+    return table_.read_constant(decl, {std::string(taker), due, motion_});
   }
 
   Dimension stiffness_dimension() const {

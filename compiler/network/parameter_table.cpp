@@ -79,7 +79,7 @@ void ParameterTable::read_range(Entry& entry) {
 std::optional<ReadValue> ParameterTable::read(const ValueDecl& decl, const Expectation& expected) {
   if (is_stated(decl, scope())) {
     const std::optional<double> value = read_quantity_as(decl, expected, diagnostics_, scope());
-    return value ? std::optional(ReadValue{*value, std::nullopt}) : std::nullopt;
+    return value ? std::optional(ReadValue{*value, {*value, *value}, {}, {}}) : std::nullopt;
   }
   const auto index = index_of_name_.find(decl.text);
   if (index != index_of_name_.end()) return use(entries_[index->second], decl, expected);
@@ -95,12 +95,23 @@ std::optional<ReadValue> ParameterTable::use(Entry& entry, const ValueDecl& decl
     entry.dimension = expected.dimension;
     entry.first_use = decl.span;
   }
-  if (entry.dimension == expected.dimension) return ReadValue{entry.parameter.value, index};
+  const Parameter& parameter = entry.parameter;
+  if (entry.dimension == expected.dimension)
+    return parameter.tunable ? ReadValue{parameter.value, {parameter.min, parameter.max}, index, index}
+                             : ReadValue{parameter.value, {parameter.value, parameter.value}, index, {}};
   diagnostics_.report<DiagnosticCode::parameter_of_wrong_unit>(decl.span, decl.text, describe(*entry.dimension),
                                                                expected.taker, describe(expected.dimension));
   if (entry.first_use) diagnostics_.note<DiagnosticCode::first_used_here>(*entry.first_use);
   else diagnostics_.note<DiagnosticCode::given_here>(entry.decl.value->span);
   return std::nullopt;
+}
+
+std::optional<double> ParameterTable::read_constant(const ValueDecl& decl, const Expectation& expected) {
+  const std::optional<ReadValue> read_value = read(decl, expected);
+  if (!read_value) return std::nullopt;
+  if (read_value->tunable)
+    diagnostics_.report<DiagnosticCode::tunable_outside_elements>(decl.span, decl.text, expected.taker);
+  return read_value->value;
 }
 
 NameScope ParameterTable::scope() {

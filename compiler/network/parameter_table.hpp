@@ -14,8 +14,10 @@
 namespace dashpot::compiler {
 
 struct ReadValue {
-  double value;  // SI
-  std::optional<std::size_t> parameter;
+  double value;                          // SI
+  Range range;                           // which it keeps to; of its value alone, unless it is tunable
+  std::optional<std::size_t> parameter;  // that gave it
+  std::optional<std::size_t> tunable;    // the same, if it may change while the law runs
 };
 
 class ParameterTable {
@@ -27,6 +29,9 @@ class ParameterTable {
   // A number, a quantity of the dimension that is due, an expression of constants of that dimension, or the name of a
   // parameter of it; otherwise nothing, reported.
   std::optional<ReadValue> read(const ValueDecl& decl, const Expectation& expected);
+
+  // The same of what must not change while the law runs: that it may is reported, and no hindrance.
+  std::optional<double> read_constant(const ValueDecl& decl, const Expectation& expected);
 
   bool is_calculated(const ValueDecl& decl) { return is_expression(decl, scope()); }
 

@@ -69,11 +69,7 @@ class CurveReader {
   // What cannot be read counts as 1, so that it causes no further complaints.
   double read(const std::optional<ValueDecl>& decl, const char* taker, const Dimension& due) {
     if (!decl) return 1;
-    const std::optional<ReadValue> value = values_.read(*decl, {taker, due, motion_});
-    if (!value) return 1;
-    if (value->parameter && values_[*value->parameter].tunable)
-      diagnostics_.report<DiagnosticCode::tunable_outside_elements>(decl->span, decl->text, taker);
-    return value->value;
+    return values_.read_constant(*decl, {taker, due, motion_}).value_or(1);
   }
   double read(const ValueDecl& decl, const char* taker, const Dimension& due) {
     return read(std::optional(decl), taker, due);

@@ -565,7 +565,7 @@ ExitStatus run(const CLI::App& app, const CommandLine& line) {
   }
   std::vector<std::string> outputs;
   for (const std::optional<std::string>& output : {line.options.output, line.options.depfile, line.options.fit.report})
-    if (output && command != "device") outputs.push_back(*output);  // `device` may fill in its own file
+    if (output) outputs.push_back(*output);
   if (contradicts_itself(line.options.choices, diagnostics) || !spares_inputs(line.options, outputs, diagnostics))
     status = ExitStatus::command_line_wrong;
   else status = commands.at(command)(line.options, files, diagnostics);

@@ -132,7 +132,6 @@ std::string filled_text(const SourceFile& file, const FilledBrake& brake, const 
 }
 
 ExitStatus write_as_code(const DeviceChoice& device, const Options& options, Diagnostics& diagnostics) {
-  if (options.output && !spares_inputs(options, {*options.output}, diagnostics)) return ExitStatus::command_line_wrong;
   const std::optional<std::string> text = device.device
                                               ? emit_device(*device.device, *options.device_language, diagnostics)
                                               : emit_arm_device(*device.axes_device, diagnostics);

@@ -323,11 +323,14 @@ class DeviceAsCode(CommandTest):
             self.assertFalse((self.folder / "out.hpp").exists())
 
     def test_its_own_file_is_spared(self):
-        """Fails if a device file can be lost to the code that is written of it, or half a file is left."""
+        """Fails if a device file can be lost to the code that is written of it, or to a device with another brake, or
+        half a file is left."""
         self.write("slide.json", LINEAR_DEVICE)
-        done = self.dashpot("device", "slide.json", "--target", "cpp", "-o", "slide.json", status=COMMAND_LINE_WRONG)
-        self.assertIn("[would-overwrite-input]", done.stderr)
-        self.assertEqual((self.folder / "slide.json").read_text(), LINEAR_DEVICE)
+        blade = ["--blade", "1 mm", "--pole-length", "20 mm", "--pole-width", "20 mm", "--field", "1 T"]
+        for words in (["--target", "cpp"], blade):
+            done = self.dashpot("device", "slide.json", *words, "-o", "slide.json", status=COMMAND_LINE_WRONG)
+            self.assertIn("[would-overwrite-input]", done.stderr)
+            self.assertEqual((self.folder / "slide.json").read_text(), LINEAR_DEVICE)
         done = self.dashpot("device", "slide.json", "--target", "cpp", "-o", "slide.json/x.hpp", status=INPUT_REFUSED)
         self.assertIn("[cannot-write-file]", done.stderr)
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -29,8 +30,18 @@ std::string with_version_of(std::string_view header, std::string text) {
   return to == 0 || end == 0 ? text : text.replace(from, to - from, header.substr(start, end - start));
 }
 
+// With CR LF at the ends of its lines, where the header's first line ends so: git writes them so under Windows.
+std::string with_line_ends_of(std::string_view header, std::string text) {
+  const std::size_t first = header.find('\n');
+  if (first == header.npos || first == 0 || header[first - 1] != '\r') return text;
+  std::string result;
+  for (const char c : text) result += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  return result;
+}
+
 // What stands there, with some words of its line in front of it.
 std::string excerpt_at(std::string_view text, std::size_t at) {
+  if (at >= text.size()) return "the end of the file";
   constexpr std::size_t most_in_front = 30;
   const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
   std::size_t start = std::max(line, at - std::min(at, most_in_front));
@@ -55,13 +66,13 @@ void compare_headers(const std::vector<std::string>& written, const SourceFile& 
   const std::string_view found = header.text();
   std::size_t furthest = 0;
   bool in_banner = false;
-  std::string expected_there;
+  std::optional<std::string> expected_there;
   for (const std::string& text : written) {
-    const std::string expected = with_version_of(found, text);
+    const std::string expected = with_line_ends_of(found, with_version_of(found, text));
     if (found == expected) return;
     const auto same =
         std::size_t(std::mismatch(found.begin(), found.end(), expected.begin(), expected.end()).first - found.begin());
-    if (!expected_there.empty() && same <= furthest) continue;
+    if (expected_there && same <= furthest) continue;
     expected_there = excerpt_at(expected, same);
     in_banner = same < expected.find(opening_of_code);
     furthest = same;
@@ -69,7 +80,7 @@ void compare_headers(const std::vector<std::string>& written, const SourceFile& 
   const Span place = {&header, furthest, std::min(header.text().find('\n', furthest), header.text().size())};
   if (in_banner) diagnostics.report<DiagnosticCode::banner_differs>(place, excerpt_at(found, furthest));
   else diagnostics.report<DiagnosticCode::code_differs>(place, excerpt_at(found, furthest));
-  if (!written.empty()) diagnostics.note<DiagnosticCode::code_expected>({}, expected_there);
+  if (expected_there) diagnostics.note<DiagnosticCode::code_expected>({}, *expected_there);
 }
 
 void tell_of_another_compile(const SourceFile& header, const std::string& device, double sample_period,

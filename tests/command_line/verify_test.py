@@ -351,6 +351,18 @@ class Verify(CommandTest):
             line = 1 + header[:header.index("B2_K2_force_ + B1_K1_force_")].count("\n")
             self.assertIn(f"minus_{len(kind)}.hpp:{line}:", told)
             self.assertRegex(told, r"writes '.*B2_K2_force_ \+ B1_K1_force_")
+            told = self.verify(header + "\n", certificate, f"longer_{len(kind)}", status=INPUT_REFUSED).stderr
+            self.assertIn(f"longer_{len(kind)}.hpp:{1 + header.count(chr(10))}:", told)
+            self.assertIn("writes 'the end of the file'", told)
+
+    def test_line_ends_of_another_system(self):
+        """Fails if a header with CR LF at the ends of its lines, as git may write them, is refused, or hides a change."""
+        header, certificate = self.emitted([FIG_5], "law")
+        self.assertIn("nearest", self.verify(header.replace("\n", "\r\n"), certificate, "dos").stdout)
+        once = "#pragma once\r\n"
+        for i, (text, other) in enumerate([("force_ + ", "force_ - "), ("\r\n", "\n"), (once, once + "\r\n")]):
+            changed = other.join(header.replace("\n", "\r\n").rsplit(text, 1))
+            self.assertIn("-differs]", self.verify(changed, certificate, f"dos_{i}", status=INPUT_REFUSED).stderr)
 
     def test_many_points(self):
         """Fails if a sound header of many points is refused, or one passed whose code or constants are another's."""

@@ -36,7 +36,10 @@ const MaterialSeries* chosen(const std::vector<MaterialSeries>& all, const Sourc
     return nullptr;
   }
   const auto is_it = [&](const MaterialSeries& one) { return one.material == *question.material; };
-  const auto found = std::find_if(all.begin(), all.end(), is_it);
+  const auto is_alike = [&](const MaterialSeries& one) { return folded(one.material) == folded(*question.material); };
+  auto found = std::find_if(all.begin(), all.end(), is_it);
+  if (found == all.end() && std::count_if(all.begin(), all.end(), is_alike) == 1)  // Abaqus ignores capitals
+    found = std::find_if(all.begin(), all.end(), is_alike);
   if (found != all.end()) return &*found;
   diagnostics.report<DiagnosticCode::prony_material_unknown>({}, file.path(), *question.material, names_of(all));
   return nullptr;

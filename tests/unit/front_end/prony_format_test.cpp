@@ -146,6 +146,7 @@ TEST(PronyFormats, RefuseWhatTheyCannotRead) {
   };
   refuses(PronyFormat::abaqus, "*Elastic\n1., 0.3\n", "prony-not-found");
   refuses(PronyFormat::abaqus, "*Viscoelastic, time=PRONY\n0.4, 0.1\n", "prony-line-too-short");
+  refuses(PronyFormat::abaqus, "*Viscoelastic, time=PRONY\n0.4, 0, 1, 0.2, 0, 2\n", "prony-line-too-long");
   refuses(PronyFormat::abaqus, "*Viscoelastic, time=PRONY\n0.4, 0, fast\n", "prony-not-a-number");
   refuses(PronyFormat::abaqus, "*Viscoelastic, time=PRONY\n0.4, 0, 0.\n", "not-above-zero");
   refuses(PronyFormat::abaqus, "*Viscoelastic, time=PRONY\n", "prony-without-terms");
@@ -166,6 +167,19 @@ TEST(PronyFormats, RefuseWhatTheyCannotRead) {
       "*Material, name=a\n*Viscoelastic, time=PRONY\n1,0,1\n*Material, name=b\n*Viscoelastic, time=PRONY\n1,0,7\n";
   EXPECT_NE(Read(two, {PronyFormat::abaqus, "c", {}}).said().find("prony-material-unknown"), std::string::npos);
   EXPECT_EQ(Read(two, {PronyFormat::abaqus, "b", {}}).series.value().terms[0].time, 7);
+}
+
+// If this fails, a deck of Abaqus is refused or misread for how its author broke lines or wrote capitals.
+TEST(PronyFormats, ReadDecksOfAbaqusHoweverTheyAreWritten) {
+  const auto time_in = [](const char* text, const char* material) {
+    const Read read(text, {PronyFormat::abaqus, material, {}});
+    return read.series && read.series->terms.size() == 1 ? read.series->terms[0].time : std::nan("");
+  };
+  EXPECT_EQ(time_in("*Material,\n** of the liver\nname=Liver\n*Viscoelastic,\n time=PRONY\n0.4,0,7,\n", "LIVER"), 7);
+  EXPECT_EQ(time_in("*Material, name=liver,\n*Viscoelastic, time=PRONY\n0.4, 0, 7\n", "liver"), 7);
+  const char* two =
+      "*Material, name=a\n*Viscoelastic, time=PRONY\n1,0,1\n*Material, name=A\n*Viscoelastic, time=PRONY\n1,0,7\n";
+  EXPECT_EQ(time_in(two, "A"), 7);
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <dashpot/board/board_device.hpp>
@@ -23,7 +25,8 @@ inline any_estimator<double> estimator_of(const device_description& device) {
   return {device.velocity, device.loop.sample_period, device.encoder.step};
 }
 
-// The log is opened when the device is there, so that a former one survives a failure before.
+// The log is opened when the device is there, so that a former one survives a failure before; its folder is made where
+// it is not there.
 template <class Port, class Model, class Estimator, class LoopOptions, class Clock>
 auto run_on(Port& device, Model& model, Estimator& estimator, LoopOptions options, Clock clock,
             const std::string& log_name, Diagnostics& diagnostics) {
@@ -33,6 +36,8 @@ auto run_on(Port& device, Model& model, Estimator& estimator, LoopOptions option
   // the loop too, for the log is closed and the summary told after it.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   const auto close = [](std::FILE* file) { std::fclose(file); };
+  std::error_code is_there;  // a folder that cannot be made is a log that cannot be opened
+  std::filesystem::create_directories(std::filesystem::path(log_name).parent_path(), is_there);
   const std::unique_ptr<std::FILE, decltype(close)> log(std::fopen(log_name.c_str(), "w"), close);
   if (!log) {
     diagnostics.report<DiagnosticCode::cannot_write_file>({}, log_name, std::string(std::strerror(errno)));

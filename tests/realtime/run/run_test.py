@@ -248,6 +248,15 @@ class Run(unittest.TestCase):
             self.assertTrue(os.path.exists(page))
             self.assertEqual(os.listdir(work), [])
 
+    def test_log_in_a_new_folder(self):
+        """Fails if `run` asks for a folder that other commands make, or says of no folder why there is no log."""
+        log = os.path.join(self.folder.name, "of_today", "first", "log.csv")
+        self.assertEqual(self.run_fast("paper/kelvin", "phantom_shorted_motor", log=log).returncode, 0)
+        self.assertTrue(os.path.exists(log))
+        result = self.run_fast("paper/kelvin", "phantom_shorted_motor", log=os.path.join(log, "log.csv"))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("log.csv/log.csv': Not a directory [cannot-write-file]", result.stderr)
+
     def test_log_that_cannot_be_written(self):
         """Fails if a log that a full disk cuts off is reported to people only, or named as if it were whole."""
         result = self.run_fast("paper/kelvin", "phantom_shorted_motor", "--diagnostics", "json", log="/dev/full")

@@ -116,10 +116,11 @@ class Files(CommandTest):
 
     def test_names_of_c99(self):
         """Fails if a network may be called, in C, as a function is that a header of C99 declares."""
-        headers = ("assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdarg stdbool "
-                   "stddef stdint stdio stdlib string tgmath time wchar wctype")
+        headers = ("assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdarg "
+                   "stdbool stddef stdint stdio stdlib string tgmath time wchar wctype")
         self.write("all.c", "".join(f"#include <{header}.h>\n" for header in headers.split()))
-        subprocess.run(["gcc", "-std=c99", "-fsyntax-only", "-aux-info", "all.txt", "all.c"], cwd=self.folder, check=True)
+        subprocess.run(["gcc", "-std=c99", "-fsyntax-only", "-aux-info", "all.txt", "all.c"], cwd=self.folder,
+                       check=True)
         declared = set(re.findall(r" \*?([a-z]\w*) \(", (self.folder / "all.txt").read_text())) - {"void"}
         self.assertGreater(len(declared), 400)
         words = sorted(declared | {"main", "restrict", "stdin", "double_t", "I"})

@@ -356,7 +356,8 @@ class Verify(CommandTest):
             self.assertIn("writes 'the end of the file'", told)
 
     def test_line_ends_of_another_system(self):
-        """Fails if a header with CR LF at the ends of its lines, as git may write them, is refused, or hides a change."""
+        """Fails if a header with CR LF at the ends of its lines, as git may write them, is refused, or hides a
+        change."""
         header, certificate = self.emitted([FIG_5], "law")
         self.assertIn("nearest", self.verify(header.replace("\n", "\r\n"), certificate, "dos").stdout)
         once = "#pragma once\r\n"

@@ -36,8 +36,8 @@ auto run_on(Port& device, Model& model, Estimator& estimator, LoopOptions option
   // the loop too, for the log is closed and the summary told after it.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   const auto close = [](std::FILE* file) { std::fclose(file); };
-  std::error_code is_there;  // a folder that cannot be made is a log that cannot be opened
-  std::filesystem::create_directories(std::filesystem::path(log_name).parent_path(), is_there);
+  std::error_code unreported;  // a log whose folder cannot be made cannot be opened, which is
+  std::filesystem::create_directories(std::filesystem::path(log_name).parent_path(), unreported);
   const std::unique_ptr<std::FILE, decltype(close)> log(std::fopen(log_name.c_str(), "w"), close);
   if (!log) {
     diagnostics.report<DiagnosticCode::cannot_write_file>({}, log_name, std::string(std::strerror(errno)));

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 #include "commands/commands.hpp"
@@ -281,8 +283,16 @@ class FitCommand {
     return true;
   }
 
-  // A surface that was found, in as many digits as are told of it.
-  static double in_digits(double place) { return std::strtod(fmt::format("{:.3e}", place).c_str(), nullptr); }
+  // A surface that was found, in as many digits as are told of it: at least four, and no coarser than four of the way
+  // that the tool goes, however far from 0 that is.
+  double in_digits(double place) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Recording& recording : recordings_)
+      for (const double position : recording.position) low = std::min(low, position), high = std::max(high, position);
+    const auto decade = [](double value) { return static_cast<int>(std::floor(std::log10(value))); };
+    const int more = place != 0 && high > low ? std::max(0, decade(std::abs(place)) - decade(high - low)) : 0;
+    return std::strtod(fmt::format("{:.{}e}", place, 3 + more).c_str(), nullptr);
+  }
 
   void settle_surface() {
     if (!words_.contact) return;

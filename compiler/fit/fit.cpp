@@ -387,6 +387,8 @@ class SurfaceSearch {
     for (const Recording& recording : recordings_)
       for (const double position : recording.position)
         furthest_ = std::max(furthest_, position), nearest_ = std::min(nearest_, position);
+    // A tool that is pressed in at its first row may have come from 0, but not from further away than it goes.
+    if (nearest_ > 0 && nearest_ <= furthest_ - nearest_) nearest_ = 0;
   }
 
   struct Found {
@@ -455,7 +457,7 @@ class SurfaceSearch {
   const std::vector<Recording>& recordings_;
   const ReductionChoices& choices_;
   std::vector<std::optional<CurveShape>> curves_;
-  double furthest_ = 0, nearest_ = 0;
+  double furthest_ = -std::numeric_limits<double>::infinity(), nearest_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace

@@ -339,10 +339,10 @@ class RecordingReader {
       diagnostics_.report<DiagnosticCode::recording_before_step>(line_of_row(0), r.time.front());
       diagnostics_.note<DiagnosticCode::recording_step_remedy>({});
     }
-    if (const double sum = std::accumulate(r.force.begin(), r.force.end(), 0.0); !(sum > 0)) {
-      diagnostics_.report<DiagnosticCode::recording_signs>(line_of_row(0));
-      diagnostics_.note<DiagnosticCode::recording_signs_remedy>({});
-    }
+    const bool is_creep = r.kind == RecordingKind::creep;
+    if (const double sum = std::accumulate(r.force.begin(), r.force.end(), 0.0); !(sum > 0))
+      refuse_signs(0, fmt::format("the mean {} is not above 0", is_creep ? "compliance" : "modulus"),
+                   "positive values are expected", {is_creep ? Role::compliance : Role::modulus});
   }
 
   // Work is put in over the whole of a recording; what gives work has a sign wrong.
@@ -351,9 +351,66 @@ class RecordingReader {
     double products = 0;
     const double from = r.force.front();
     for (std::size_t i = 0; i < r.time.size(); ++i) products += (r.force[i] - from) * (r.position[i] - r.position[0]);
-    if (products >= 0) return;
-    diagnostics_.report<DiagnosticCode::recording_signs>(line_of_row(0));
-    diagnostics_.note<DiagnosticCode::recording_signs_remedy>({});
+    if (products < 0)
+      return refuse_signs(0, "force falls where position rises",
+                          "a force that opposes the motion is counted as positive", {Role::force, Role::stress});
+    if (choices_.keeps_positions) check_direction();
+  }
+
+  // Behind a surface the force is positive and the position beyond it: a recording of a tool that presses the other way
+  // would have no row that touches. One that sticks pulls too, but does not go back beyond its first row for that.
+  void check_direction() {
+    const Recording& r = result_.recording;
+    const auto [least, greatest] = std::minmax_element(r.force.begin(), r.force.end());
+    double weights = 0, sum = 0;
+    for (std::size_t i = 0; i < r.time.size(); ++i) {
+      const double push = std::abs(r.force[i] - r.force.front());
+      weights += push;
+      sum += push * (r.position[i] - r.position.front());
+    }
+    if (-*least <= *greatest || sum >= 0) return;
+    refuse_signs(static_cast<std::size_t>(least - r.force.begin()),
+                 "the force is negative, and the tool presses towards falling positions",
+                 "in front of a surface positions rise towards it, and behind it forces are positive",
+                 {Role::position, Role::strain, Role::force, Role::stress});
+  }
+
+  void refuse_signs(std::size_t row, const std::string& what, const char* counted_as, const std::vector<Role>& roles) {
+    diagnostics_.report<DiagnosticCode::recording_signs>(line_of_row(row), what, counted_as);
+    std::vector<std::string> turned;
+    for (const ChosenColumn& column : columns_)
+      if (std::find(roles.begin(), roles.end(), column.role) != roles.end()) turned.emplace_back(name_of(column.role));
+    diagnostics_.note<DiagnosticCode::recording_signs_remedy>({}, fmt::format("{}", fmt::join(turned, " and ")),
+                                                              with_signs_turned(roles));
+  }
+
+  // The command line with all columns of this recording, those of some roles with their signs turned.
+  std::string with_signs_turned(const std::vector<Role>& roles) const {
+    std::vector<std::string> parts;
+    for (const ChosenColumn& column : columns_) {
+      const bool is_turned = std::find(roles.begin(), roles.end(), column.role) != roles.end();
+      const auto request = std::find_if(choices_.columns.requests.begin(), choices_.columns.requests.end(),
+                                        [&](const ColumnRequest& r) { return r.role == column.role; });
+      std::string part = std::string(name_of(column.role)) + "=";
+      if (request == choices_.columns.requests.end()) {
+        part += (is_turned ? "-" : "") + spelt(column);
+      } else {
+        part += (request->is_negated != is_turned ? "-" : "") + request->name;
+        if (request->offset != 0) part += fmt::format("{:+}", request->offset);
+        if (request->unit) part += ":" + *request->unit;
+      }
+      parts.push_back(part);
+    }
+    return choices_.columns.command + " --columns " + shell_word(fmt::format("{}", fmt::join(parts, ",")));
+  }
+
+  // A column's name; its number where others have the name, or it would be read as something else.
+  std::string spelt(const ChosenColumn& column) const {
+    std::string name = table_column(column.title).name;
+    const auto same = [&](const std::string& title) { return table_column(title).name == name; };
+    const bool is_plain = !name.empty() && name.find_first_of(",:=+-") == std::string::npos;
+    const bool is_one = std::count_if(shape_.names.begin(), shape_.names.end(), same) == 1;
+    return is_plain && is_one ? name : std::to_string(column.index + 1);
   }
 
   void check_saturation(double range) {

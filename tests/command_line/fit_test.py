@@ -39,9 +39,10 @@ def recording(rows=400, period=0.005, header="time [s],position [mm],force [N]",
     return "\n".join([header, *lines]) + "\n"
 
 
-def approach(force_after_lift_off=0.0, noise=0.004):
+def approach(force_after_lift_off=0.0, noise=0.004, origin=0.0):
     """A Zener body whose surface is at 2.6 mm: the tool comes from 0, presses to 6.6 mm, holds, and goes back faster
-    than the body. In the rows after it has left, a force of one's own. Its noise is that of an even distribution."""
+    than the body. In the rows after it has left, a force of one's own. Its noise is that of an even distribution. The
+    positions that are written count from elsewhere, by `origin` [mm]."""
     h, surface, relaxation = 0.01, 2.6e-3, 0.4
     decay, q, last, rows, seed = math.exp(-h / relaxation), 0.0, 0.0, [], 7
     share, has_left = (1 - decay) * relaxation / h, False
@@ -57,7 +58,7 @@ def approach(force_after_lift_off=0.0, noise=0.004):
         seed = 16807 * seed % 2147483647
         force = max(0.0, force) + (force_after_lift_off if has_left
                                    else 0) + noise * math.sqrt(12) * (seed / 2147483647 - 0.5)
-        rows.append(f"{t:.2f},{1e3 * x:.5f},{force:.6f}")
+        rows.append(f"{t:.2f},{origin + 1e3 * x:.5f},{force:.6f}")
     return "\n".join(["time [s],position [mm],force [N]", *rows]) + "\n"
 
 
@@ -432,6 +433,30 @@ int main() {
         self.assertEqual(told["contact"], {"at": 5e-4, "found": False})
         for element, value in zip(told["elements"], (300, 200, 100), strict=True):
             self.assertAlmostEqual(element["value"] / value, 1, places=4)
+
+    def test_a_surface_far_from_zero(self):
+        """Fails if the surface is looked for from 0 on, and not where the tool goes: far from 0 there are a few places
+        then, or none, to try. The numbers are those of the machine's axis, and say nothing of the tissue."""
+        for origin in (0, 30, 60, 100, 150, -156):
+            self.write("far.csv", approach(origin=origin))
+            for words in ([], ["--shape", "auto"]) if abs(origin) > 100 else ([],):
+                at = self.told("far.csv", "--contact", "find", *words)["contact"]["at"]
+                self.assertAlmostEqual(at, 1e-3 * (origin + 2.6), delta=0.01e-3, msg=(origin, words))
+
+    def test_a_tool_that_presses_backwards(self):
+        """Fails if rows of a tool that presses towards falling positions, which a surface takes for no touch, are left
+        out without a word; or if what would turn them is not told, or does not."""
+        header, *rows = approach(origin=150).splitlines()
+        self.write("back.csv", "\n".join([header, *(re.sub(r",(-?)", lambda m: "," + ("" if m[1] else "-"), row)
+                                                    for row in rows)]) + "\n")
+        turned = "position=-position,force=-force"
+        for surface in ("find", "-152.6 mm"):
+            done = self.refused("fit", "back.csv", f"--contact={surface}", "-o", "back.json", code="recording-signs")
+            self.assertIn("the force is negative, and the tool presses towards falling positions", done.stderr)
+            self.assertIn(f"--columns time=time,{turned}", done.stderr)
+        at = self.told("back.csv", "--contact", "find", "--columns", turned)["contact"]["at"]
+        self.assertAlmostEqual(at, 152.6e-3, delta=0.01e-3)
+        self.fit("back.csv")
 
     def test_a_tool_that_comes_from_in_front(self):
         """Fails if a recording that begins in front of the tissue is fitted as if it touched, and nobody hears of

@@ -165,7 +165,10 @@ void report_findings(const Fit& fit, const std::vector<Recording>& recordings, D
         diagnostics.report<DiagnosticCode::fit_floor_above_noise>({}, error_text(n[0], fit, problem),
                                                                   error_text(n[1], fit, problem));
         // Its advice is about options; with a shape it would name one that was taken.
-        if (fit.choices.reduction.shape == ShapeChoice::none) diagnostics.note<DiagnosticCode::fit_floor_remedy>({});
+        if (recordings.front().kind != RecordingKind::motion)
+          diagnostics.note<DiagnosticCode::fit_floor_remedy_after_step>({});
+        else if (fit.choices.reduction.shape == ShapeChoice::none)
+          diagnostics.note<DiagnosticCode::fit_floor_remedy>({});
         break;
       case Kind::floor_not_certified: diagnostics.report<DiagnosticCode::fit_floor_not_certified>({}, n[0]); break;
       case Kind::slower_than_record:

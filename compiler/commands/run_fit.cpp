@@ -76,6 +76,7 @@ class FitCommand {
     if (!read_all(words_.recordings, recordings_) || !read_all(words_.hold_out, held_out_))
       return ExitStatus::input_refused;
     if (!are_alike()) return ExitStatus::input_refused;
+    if (!suits(recordings_.front().kind)) return ExitStatus::command_line_wrong;
     settle_surface();
     settle_form();
     const std::optional<Fit> found = fit(recordings_, held_out_, choices_, diagnostics_,
@@ -112,7 +113,30 @@ class FitCommand {
       read_.columns.requests = *requests;
     }
     if (words_.geometry && !(read_.geometry = parse_geometry(*words_.geometry, diagnostics_))) return false;
+    if (words_.relaxation && !suits(RecordingKind::relaxation, "--relaxation")) return false;
+    if (words_.creep && !suits(RecordingKind::creep, "--creep")) return false;
     return take_quantities() && take_sizes() && take_shape() && take_start();
+  }
+
+  // False, with a diagnostic, where something is asked for that only a motion has. The kind is known from the command
+  // line, or once the recordings are read.
+  bool suits(RecordingKind kind, const char* asked = nullptr) {
+    if (kind == RecordingKind::motion) return true;
+    struct ForMotions {
+      bool is_asked;
+      const char *option, *why;
+    };
+    const std::string other = asked != nullptr                    ? asked
+                              : kind == RecordingKind::relaxation ? "a relaxation"
+                              : kind == RecordingKind::frequency  ? "a spectrum"
+                                                                  : "creep";
+    for (const auto& [is_asked, option, why] :
+         {ForMotions{words_.shape.value_or("none") != "none", "--shape", needs_a_motion},
+          {words_.elastic, "--elastic", needs_a_motion},
+          {words_.slips != "none", "--slips", "slips are fitted to positions over time"},
+          {words_.contact.has_value(), "--contact", "a surface is found and left by a tool that moves"}})
+      if (is_asked) return contradicts(option, other.c_str(), why);
+    return true;
   }
 
   bool take_quantities() {
@@ -165,13 +189,8 @@ class FitCommand {
     }
     if (choices_.reduction.springpots && words_.control == "force")
       return contradicts("--springpots auto", "--control force", "springpots are fitted as stiffness");
-    if (choices_.reduction.slips != SlipChoice::none &&
-        (words_.control == "force" || words_.creep || words_.relaxation))
-      return contradicts("--slips",
-                         words_.creep        ? "--creep"
-                         : words_.relaxation ? "--relaxation"
-                                             : "--control force",
-                         "slips are fitted to positions over time");
+    if (choices_.reduction.slips != SlipChoice::none && words_.control == "force")
+      return contradicts("--slips", "--control force", "slips are fitted to positions over time");
     if (words_.gain_per_file && words_.recordings.size() < 2)
       return contradicts("--gain-per-file", "one recording", "its gain is in the network");
     return true;
@@ -186,13 +205,10 @@ class FitCommand {
                                                               {"auto", ShapeChoice::automatic}};
     choices_.reduction.shape = shapes.at(shape);
     choices_.reduction.is_elastic = words_.elastic;
-    const char* other = words_.creep                ? "--creep"
-                        : words_.relaxation         ? "--relaxation"
-                        : words_.control == "force" ? "--control force"
-                                                    : nullptr;
-    if (shape != "none" && other != nullptr) return contradicts("--shape", other, needs_a_motion);
+    const bool controls_force = words_.control == "force";
+    if (shape != "none" && controls_force) return contradicts("--shape", "--control force", needs_a_motion);
     if (!words_.elastic) return true;
-    if (other != nullptr) return contradicts("--elastic", other, needs_a_motion);
+    if (controls_force) return contradicts("--elastic", "--control force", needs_a_motion);
     if (words_.modes || words_.slips != "none" || words_.springpots != "none")
       return contradicts("--elastic",
                          words_.modes             ? "--modes"
@@ -266,8 +282,6 @@ class FitCommand {
 
   bool are_alike() {
     const Recording& first = recordings_.front();
-    if (first.kind == RecordingKind::frequency && (choices_.reduction.shape != ShapeChoice::none || words_.elastic))
-      return contradicts(words_.elastic ? "--elastic" : "--shape", "a spectrum", needs_a_motion);
     for (const std::vector<Recording>* list : {&recordings_, &held_out_})
       for (const Recording& recording : *list)
         if (recording.kind != first.kind) {

@@ -314,12 +314,42 @@ int main() {
         self.dashpot("fit", "zener.csv", "--shape", "sphere", status=COMMAND_LINE_WRONG)
         spectrum = self.write("spectrum.csv", "omega [rad/s],storage [N/m],loss [N/m]\n1,1,1\n2,2,1\n3,3,1\n")
         self.assertIn("--shape with a spectrum",
-                      self.dashpot("fit", spectrum, "--shape", "auto", status=INPUT_REFUSED).stderr)
+                      self.dashpot("fit", spectrum, "--shape", "auto", status=COMMAND_LINE_WRONG).stderr)
         self.dashpot("fit", "zener.csv", "-o", "zener.csv", status=COMMAND_LINE_WRONG)
         self.assertIn("[cannot-read-file]", self.dashpot("fit", "none.csv", status=INPUT_REFUSED).stderr)
         self.assertIn("[recordings-differ]", self.dashpot(
             "fit", "zener.csv", self.write("s.csv", "omega [rad/s],storage [N/m],loss [N/m]\n1,1,1\n2,2,1\n3,3,1\n"),
             status=INPUT_REFUSED).stderr)
+
+    def test_what_only_a_motion_has(self):
+        """Fails if an option that is about positions and forces over time crashes on a relaxation, creep or a spectrum,
+        or is passed over in silence there; or if that is another error once the header has said what the recording
+        is."""
+        self.write("relaxation.csv", "time [s],modulus [N/m]\n0.01,1500\n0.1,1300\n1,1100\n10,1000\n")
+        self.write("creep.csv", "time [s],compliance [m/N]\n0.01,0.1\n0.1,0.12\n1,0.15\n10,0.16\n")
+        self.write("spectrum.csv", "omega [rad/s],storage [N/m],loss [N/m]\n1,1,1\n2,2,1\n3,3,1\n")
+        kinds = [("relaxation.csv", [], "a relaxation"), ("relaxation.csv", ["--relaxation"], "--relaxation"),
+                 ("creep.csv", [], "creep"), ("creep.csv", ["--creep"], "--creep"),
+                 ("spectrum.csv", [], "a spectrum")]
+        for option in self.ONLY_OF_A_MOTION:
+            for name, words, other in kinds:
+                if option[0] == "--control" and "creep" in other: continue
+                done = self.dashpot("fit", name, *words, *option, "-o", "not.json", status=COMMAND_LINE_WRONG)
+                self.assertRegex(done.stderr, rf"{option[0]}( force)? with {other}: .*\[fit-choices-contradict\]")
+        self.assertNotIn("not.json", self.files())
+
+    # Controlled forces are what creep is.
+    ONLY_OF_A_MOTION = (["--contact", "1mm"], ["--contact", "find"], ["--shape", "auto"], ["--elastic"],
+                        ["--slips", "auto"])
+
+    def test_advice_that_suits_a_relaxation(self):
+        """Fails if a relaxation that no network explains is told to try what only a motion has."""
+        self.write("waves.csv", "time [s],modulus [N/m]\n" + "".join(
+            f"{i / 100!r},{100 + 20 * math.sin(i / 12)!r}\n" for i in range(400)))
+        told = self.fit("waves.csv").stderr
+        self.assertIn("[fit-floor-above-noise]", told)
+        self.assertIn("note: --gain-per-file takes", told)
+        for option in ("--contact", "--slips", "--shape", "--tare"): self.assertNotIn(option, told)
 
     def test_the_same_recording_twice(self):
         """Fails if one recording counts twice, or is held out of itself, without a word; or if another one is taken for

@@ -351,6 +351,19 @@ int main() {
         self.assertIn("note: --gain-per-file takes", told)
         for option in ("--contact", "--slips", "--shape", "--tare"): self.assertNotIn(option, told)
 
+    def test_network_and_page_in_one_file(self):
+        """Fails if a network and its page are written over each other, or over what was there."""
+        self.write("zener.csv", recording())
+        (self.folder / "here").symlink_to(".")
+        for page in ("zener.json", "./zener.json", "here/zener.json"):
+            self.write("zener.json", "kept")
+            done = self.dashpot("fit", "zener.csv", "-o", "zener.json", "--report", page, status=COMMAND_LINE_WRONG)
+            self.assertIn("[same-output]", done.stderr)
+            self.assertEqual((self.folder / "zener.json").read_text(), "kept")
+        done = self.dashpot("fit", "zener.csv", "-o", "new.json", "--report", "here/new.json",
+                            status=COMMAND_LINE_WRONG)
+        self.assertIn("[same-output]", done.stderr)
+
     def test_the_same_recording_twice(self):
         """Fails if one recording counts twice, or is held out of itself, without a word; or if another one is taken for
         it."""

@@ -14,6 +14,7 @@
 #include "commands/commands.hpp"
 #include "commands/fit_output.hpp"
 #include "emit/write_files.hpp"
+#include "fit/network_text.hpp"
 #include "fit/read_recording.hpp"
 #include "network/name_rules.hpp"
 
@@ -77,7 +78,7 @@ class FitCommand {
       return ExitStatus::input_refused;
     if (!are_alike()) return ExitStatus::input_refused;
     if (!suits(recordings_.front().kind)) return ExitStatus::command_line_wrong;
-    settle_surface();
+    if (!settle_surface()) return ExitStatus::input_refused;
     settle_form();
     const std::optional<Fit> found = fit(recordings_, held_out_, choices_, diagnostics_,
                                          [this](const std::string& what) { line_.show("fitting: " + what); });
@@ -312,26 +313,42 @@ class FitCommand {
     return true;
   }
 
-  // A surface that was found, in as many digits as are told of it: at least four, and no coarser than four of the way
-  // that the tool goes, however far from 0 that is.
-  double in_digits(double place) const {
+  // Of all recordings: the least and the greatest position.
+  std::pair<double, double> way() const {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Recording& recording : recordings_)
       for (const double position : recording.position) low = std::min(low, position), high = std::max(high, position);
+    return {low, high};
+  }
+
+  // A surface that was found, in as many digits as are told of it: at least four, and no coarser than four of the way
+  // that the tool goes, however far from 0 that is.
+  double in_digits(double place) const {
+    const auto [low, high] = way();
     const auto decade = [](double value) { return static_cast<int>(std::floor(std::log10(value))); };
     const int more = place != 0 && high > low ? std::max(0, decade(std::abs(place)) - decade(high - low)) : 0;
     return std::strtod(fmt::format("{:.{}e}", place, 3 + more).c_str(), nullptr);
   }
 
-  void settle_surface() {
-    if (!words_.contact) return;
+  bool settle_surface() {
+    if (!words_.contact) return true;
     if (!choices_.contact) {
       line_.show("fitting: looking for the surface");
       choices_.contact = in_digits(find_contact(recordings_, choices_.reduction));
       choices_.contact_is_found = true;
     }
+    const auto [low, high] = way();
+    if (*choices_.contact >= high) {
+      const auto text = [&](double place) {
+        return place_text(place, is_rotation_ ? motion::rotation : motion::translation);
+      };
+      diagnostics_.report<DiagnosticCode::fit_surface_beyond>({}, text(*choices_.contact), text(low), text(high));
+      diagnostics_.note<DiagnosticCode::fit_contact_remedy>({});
+      return false;
+    }
     recordings_ = behind_surface(std::move(recordings_), *choices_.contact);
     held_out_ = behind_surface(std::move(held_out_), *choices_.contact);
+    return true;
   }
 
   void settle_form() {

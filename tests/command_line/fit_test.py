@@ -206,6 +206,7 @@ int main() {
         provoked = {"fit-wrong-quantity", "fit-choices-contradict"}  # see test_refuses
         for words, told in (
                 (["nothing.csv"], {"fit-nothing-resists"}),
+                (["zener.csv", "--contact", "9 mm"], {"fit-surface-beyond"}),
                 (["zener.csv", "--modes", "9"], {"fit-size-not-met"}),
                 (["zener.csv", "zener.csv", "--tare"], {"fit-offsets-absorb"}),
                 (["moving.csv"], {"fit-in-motion"}),
@@ -224,7 +225,8 @@ int main() {
                 ([*ADHESIVE, "--slips", "2", "--modes", "2", "--gain-per-file"],
                  {"fit-slips-or-softening", "fit-no-intervals", "fit-unstable-left-out", "fit-gains-fitted"})):
             with self.subTest(words[0]):
-                done = self.fit(*words, status=INPUT_REFUSED if words == ["nothing.csv"] else 0)
+                is_refused = words == ["nothing.csv"] or "9 mm" in words
+                done = self.fit(*words, status=INPUT_REFUSED if is_refused else 0)
                 said = set(re.findall(r"\[(fit-[a-z-]+)\]$", done.stderr, re.MULTILINE))
                 self.assertLessEqual(told, said)
                 provoked |= said
@@ -485,6 +487,16 @@ int main() {
             for words in ([], ["--shape", "auto"]) if abs(origin) > 100 else ([],):
                 at = self.told("far.csv", "--contact", "find", *words)["contact"]["at"]
                 self.assertAlmostEqual(at, 1e-3 * (origin + 2.6), delta=0.01e-3, msg=(origin, words))
+
+    def test_a_surface_beyond_the_way(self):
+        """Fails if a surface that no tool has reached is fitted behind, which took forever with a shape; or if it is
+        not said how far the tool went."""
+        self.write("approach.csv", approach())
+        for words in ([], ["--shape", "auto"], ["--elastic"]):
+            for surface in ("6.6 mm", "2 m"):
+                done = self.refused("fit", "approach.csv", "--contact", surface, *words, code="fit-surface-beyond")
+                self.assertIn("which go from 0 m to 6.6 mm", done.stderr)
+                self.assertIn("note: --contact find looks for the surface", done.stderr)
 
     def test_a_tool_that_presses_backwards(self):
         """Fails if rows of a tool that presses towards falling positions, which a surface takes for no touch, are left

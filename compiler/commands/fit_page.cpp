@@ -289,7 +289,7 @@ class FitPage {
   std::string cell(std::optional<fitting::Interval> FittedElement::*which, const FittedElement& element) const {
     if (!has(which)) return "";
     const std::optional<fitting::Interval>& interval = element.*which;
-    if (!interval) return "<td></td>";
+    if (!interval) return which == &FittedElement::interval ? "<td>not known</td>" : "<td></td>";
     return "<td>" + escaped(interval_text(*interval, unit_of(element.kind, units_))) + "</td>";
   }
 
@@ -314,6 +314,7 @@ class FitPage {
       text += (&value == &fit_.curve_values.front() ? " " : "; ") + escaped(value.name + " " + value.text);
       if (value.interval)
         text += escaped(fmt::format(" ({:.4g} … {:.4g}, 95 %)", value.interval->low, value.interval->high));
+      else if (fit_.has_intervals) text += " (95 %: not known)";
     }
     return text + ".</p>\n";
   }

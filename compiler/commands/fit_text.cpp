@@ -81,6 +81,11 @@ class FitText {
     return interval_text(interval, unit_of(element.kind, units_));
   }
 
+  std::string known(const auto& told) const {
+    if (told.interval) return ", 95 %: " + between(*told.interval, told);
+    return fit_.has_intervals ? ", 95 %: not known, not to a factor of a million" : "";
+  }
+
   std::string elements() const {
     std::string text;
     if (!fit_.curve_values.empty()) {
@@ -88,7 +93,7 @@ class FitText {
                           curve_stiffness(fit_.model).is_instantaneous ? "at once" : "at rest");
       for (const FittedCurveValue& value : fit_.curve_values) {
         text += fmt::format("  {} {}", value.name, value.text);
-        if (value.interval) text += ", 95 %: " + between(*value.interval, value);
+        text += known(value);
         if (value.spread) text += ", bootstrap: " + between(*value.spread, value);
         if (value.left_out) text += ", leaving a file out: " + between(*value.left_out, value);
         text += "\n";
@@ -97,7 +102,7 @@ class FitText {
     text += "\nelements\n";
     for (const FittedElement& element : fit_.elements) {
       text += fmt::format("  {} {}", element.name, element.text);
-      if (element.interval) text += ", 95 %: " + between(*element.interval, element);
+      text += known(element);
       if (element.spread) text += ", bootstrap: " + between(*element.spread, element);
       if (element.left_out) text += ", leaving a file out: " + between(*element.left_out, element);
       text += "\n";

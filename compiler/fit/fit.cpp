@@ -193,6 +193,7 @@ class Fitter {
     if (thinned_) on_searched_.residual_sum = residual(*thinned_, fit_.model).squaredNorm();
     uncertainty_.emplace(searched(), on_searched_, fit_.effective_samples, gains_are_free());
     fit_.condition = uncertainty_->condition();
+    fit_.has_intervals = uncertainty_->is_told();
     tell("leaving each file out");
     fit_.left_out = leave_one_out(searched(), fit_.model, gains_are_free());
     std::vector<Model> drawn;

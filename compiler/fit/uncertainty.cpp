@@ -29,6 +29,14 @@ MatrixXd inverse_normal(const MatrixXd& jacobian, double& condition) {
   return lengths.cwiseInverse().asDiagonal() * inverse * lengths.cwiseInverse().asDiagonal();
 }
 
+// A value that may be a million times smaller or greater is not known. Of values that do not matter at all the reach is
+// beyond what a double holds.
+std::optional<Interval> by_factor(double value, double reach) {
+  static const double widest = std::log(1e6);
+  if (!(reach < widest)) return std::nullopt;
+  return Interval{value * std::exp(-reach), value * std::exp(reach)};
+}
+
 constexpr ProjectionLimits again{40, 1e-9};
 constexpr ProjectionLimits rough{8, 1e-4};
 
@@ -107,6 +115,11 @@ Uncertainty::Uncertainty(const Problem& problem, const Model& model, double effe
   if (is_told_) quantile_ = boost::math::quantile(StudentsT(effective - parameters), 0.975);
 }
 
+double Uncertainty::reach_of(const VectorXd& share) const {
+  const double variance = share.dot(covariance_ * share);
+  return variance < 0 ? 0 : quantile_ * std::sqrt(variance);  // NaN of a force that is 0 whatever the numbers are
+}
+
 std::optional<Interval> Uncertainty::interval(const ElementQuantity& quantity) const {
   if (!is_told_) return std::nullopt;
   VectorXd share = VectorXd::Zero(covariance_.rows());
@@ -116,10 +129,10 @@ std::optional<Interval> Uncertainty::interval(const ElementQuantity& quantity) c
   add(weight_place_[quantity.term], quantity.is_inverse ? -1 : 1);
   if (quantity.times_time) add(time_place_[quantity.term], 1);
   if (quantity.times_threshold) add(threshold_place_[quantity.term], 1);
-  const double reach = quantile_ * std::sqrt(std::max(0.0, share.dot(covariance_ * share)));
+  const double reach = reach_of(share);
   const double value = value_of(model_, quantity);
   if (is_signed(model_.terms[quantity.term])) return Interval{value - reach, value + reach};
-  return Interval{value * std::exp(-reach), value * std::exp(reach)};
+  return by_factor(value, reach);
 }
 
 // By its slope in every number that it depends on: the curve's parameters, and weights that make its stiffness.
@@ -139,8 +152,7 @@ std::optional<Interval> Uncertainty::interval(const CurveQuantity& quantity) con
         [&](Model& model, double by) { model.curve->set_parameter(k, model.curve->parameters()[k] + by); });
   for (std::size_t j = 0; j < weight_place_.size(); ++j)
     if (weight_place_[j] >= 0) add(weight_place_[j], [&](Model& model, double by) { model.weight(j) *= std::exp(by); });
-  const double half = quantile_ * std::sqrt(std::max(0.0, share.dot(covariance_ * share)));
-  return Interval{value * std::exp(-half), value * std::exp(half)};
+  return by_factor(value, reach_of(share));
 }
 
 std::vector<Model> leave_one_out(const Problem& problem, const Model& model, bool gains_are_free) {

@@ -50,11 +50,15 @@ class Uncertainty {
 
   // Fewer than p + 5 effective samples: what is left is the model's error, and no interval can be had from it.
   bool is_told() const { return is_told_; }
-  std::optional<Interval> interval(const ElementQuantity& quantity) const;  // 95 %
+  // Of 95 %. Nothing for a value that is not known to a factor of a million either way.
+  std::optional<Interval> interval(const ElementQuantity& quantity) const;
   std::optional<Interval> interval(const CurveQuantity& quantity) const;
   double condition() const { return condition_; }  // of J with columns of length one
 
  private:
+  // Of what changes with the logarithms of the unknowns by these shares: half the interval.
+  double reach_of(const Eigen::VectorXd& share) const;
+
   const Model& model_;
   Eigen::MatrixXd covariance_;
   std::vector<Eigen::Index> weight_place_, time_place_, threshold_place_;  // in the covariance; −1 where there is none

@@ -527,6 +527,21 @@ int main() {
         self.assertNotIn("[fit-untouched]", self.fit("approach.csv", "--contact", "find").stderr)
         self.assertNotIn("[fit-untouched]", self.fit("zener.csv").stderr)
 
+    def test_what_is_not_known(self):
+        """Fails if a value that the rows do not decide at all has an interval beyond what a double holds, in the
+        answer, the file or the page. A table that begins in front of the tissue has such forces."""
+        self.write("approach.csv", approach())
+        done = self.fit("approach.csv", "--shape", "table", "--elastic", "-o", "table.json", "--report", "table.html")
+        self.assertRegex(done.stdout, r"force at \S+ \w+ \S+ \w*N, 95 %: not known, not to a factor of a million\n")
+        self.assertRegex(done.stdout, r"force at 6\.6 mm \S+ m?N, 95 %: \S+ m?N … ")
+        self.assertIn("(95 %: not known)", (self.folder / "table.html").read_text())
+        intervals = json.loads((self.folder / "table.json").read_text())["fit"]["intervals"]
+        told = self.told("approach.csv", "--shape", "table", "--elastic")["static"]["values"]
+        self.assertEqual([value["name"] in intervals for value in told],
+                         [value["interval"] is not None for value in told])
+        for text in (done.stdout, (self.folder / "table.json").read_text(), (self.folder / "table.html").read_text()):
+            self.assertNotRegex(text, r"\bnan\b|\binf\b")
+
     def test_a_surface_that_is_not_left(self):
         """Fails if rows are left out that carry a force, and R² alone is reported; or if rows without force are
         blamed."""

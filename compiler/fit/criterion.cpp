@@ -9,7 +9,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double least_effective = 12;  // a spectrum whose storage and loss disagree would be worth 3
+// Where there are as many rows: a spectrum whose storage and loss disagree would be worth 3.
+constexpr double least_effective = 12;
 
 // What the model leaves, in runs whose rows follow each other.
 std::vector<VectorXd> runs(const Problem& problem, const Model& model) {
@@ -48,7 +49,7 @@ double effective_of(const std::vector<VectorXd>& left, double count) {
     sum += pair;
   }
   const double samples_a_row = std::max(1.0, 2 * sum - 1);
-  return std::min(std::max(least_effective, count / samples_a_row), std::max(least_effective, count));
+  return std::max({1.0, std::min(least_effective, count), count / samples_a_row});
 }
 
 }  // namespace

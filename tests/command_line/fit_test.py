@@ -542,6 +542,18 @@ int main() {
         for text in (done.stdout, (self.folder / "table.json").read_text(), (self.folder / "table.html").read_text()):
             self.assertNotRegex(text, r"\bnan\b|\binf\b")
 
+    def test_a_few_rows(self):
+        """Fails if rows are worth more samples than there are, which makes intervals of nothing."""
+        rows = ["0,0,0", "0.1,1,0.1", "0.2,2,0.22", "0.3,3,0.3", "0.4,4,0.41", "0.5,5,0.5", "0.6,6,0.61", "0.7,7,0.7"]
+        for count in (3, 5, 8):
+            self.write("few.csv", "\n".join(["time [s],position [mm],force [N]", *rows[:count]]) + "\n")
+            told = self.told("few.csv")
+            self.assertEqual(told["effective_samples"], count)
+            self.assertEqual(told["files"][0]["effective_samples"], count)
+            is_known = count >= told["parameters"] + 5
+            self.assertEqual("[fit-no-intervals]" in self.fit("few.csv").stderr, not is_known)
+            for element in told["elements"]: self.assertEqual(element["interval"] is not None, is_known)
+
     def test_a_surface_that_is_not_left(self):
         """Fails if rows are left out that carry a force, and R² alone is reported; or if rows without force are
         blamed."""

@@ -438,11 +438,8 @@ class Chooser {
       parts.push_back(std::string(rule_of(offer->role).word) + "=" + offer->text);
     }
     const std::string columns = fmt::format("{}", fmt::join(parts, ","));
-    const bool has_primes = columns.find('\'') != std::string::npos;  // better to read between double quotes
-    const bool is_plain = columns.find_first_of("\"$`\\!") == std::string::npos;
-    return Answer{
-        search_.command + " --columns " + (has_primes && is_plain ? '"' + columns + '"' : shell_word(columns)),
-        guesses_unit ? "where the units are right" : "where the columns are right"};
+    return Answer{search_.command + " --columns " + columns_word(columns),
+                  guesses_unit ? "where the units are right" : "where the columns are right"};
   }
 
   std::optional<Offer> named_offer(const std::vector<Role>& group) const {
@@ -615,6 +612,12 @@ std::string shell_word(const std::string& word) {
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+std::string columns_word(const std::string& columns) {
+  const bool has_primes = columns.find('\'') != std::string::npos;  // better to read between double quotes
+  const bool is_plain = columns.find_first_of("\"$`\\!") == std::string::npos;
+  return has_primes && is_plain ? '"' + columns + '"' : shell_word(columns);
 }
 
 const char* name_of(Role role) { return rule_of(role).word; }

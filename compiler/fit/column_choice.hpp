@@ -107,7 +107,8 @@ std::optional<std::vector<ChosenColumn>> choose_columns(const std::string& path,
 RecordingKind kind_of(const std::vector<ChosenColumn>& columns);
 const ChosenColumn* find_column(const std::vector<ChosenColumn>& columns, Role role);
 
-std::string shell_word(const std::string& word);  // as a shell takes it
+std::string shell_word(const std::string& word);       // as a shell takes it
+std::string columns_word(const std::string& columns);  // the same of what follows --columns
 
 // A quantity as the command line spells it, "10 mm" or "1kPa".
 struct SpokenQuantity {

@@ -102,7 +102,7 @@ struct Fit {
   double r_squared = 0;
   double criterion = 0;
   double condition = 1;
-  bool has_intervals = false;  // where one is missing then, its value is not known
+  bool has_intervals = false;   // where one is missing then, its value is not known
   std::optional<double> noise;  // of the force, by its second differences
   std::vector<FileScore> files, held_out;
   std::vector<Model> left_out;  // one a file

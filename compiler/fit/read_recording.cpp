@@ -329,7 +329,20 @@ class RecordingReader {
     if (r.time.front() == r.time.back()) {
       diagnostics_.report<DiagnosticCode::recording_without_motion>(line_of_row(0), r.time.front());
       diagnostics_.note<DiagnosticCode::recording_motion_remedy>({});
+      return;
     }
+    check_loss();
+  }
+
+  // With time as exp(−iωt) losses are below zero. What hardly loses anything may be so by the noise of its phase.
+  void check_loss() {
+    constexpr double by_noise = 0.01;  // of the magnitude
+    const Recording& r = result_.recording;
+    double shares = 0;
+    for (std::size_t i = 0; i < r.time.size(); ++i)
+      if (const double size = std::hypot(r.force[i], r.loss[i]); size > 0) shares += r.loss[i] / size;
+    if (shares < -by_noise * static_cast<double>(r.time.size()))
+      refuse_signs(0, "the loss is negative", "energy that is lost is counted as positive", {Role::loss});
   }
 
   // Stiffness and compliance are above zero, or a sign is wrong.
@@ -401,7 +414,7 @@ class RecordingReader {
       }
       parts.push_back(part);
     }
-    return choices_.columns.command + " --columns " + shell_word(fmt::format("{}", fmt::join(parts, ",")));
+    return choices_.columns.command + " --columns " + columns_word(fmt::format("{}", fmt::join(parts, ",")));
   }
 
   // A column's name; its number where others have the name, or it would be read as something else.

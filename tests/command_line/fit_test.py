@@ -323,6 +323,18 @@ int main() {
             "fit", "zener.csv", self.write("s.csv", "omega [rad/s],storage [N/m],loss [N/m]\n1,1,1\n2,2,1\n3,3,1\n"),
             status=INPUT_REFUSED).stderr)
 
+    def test_a_spectrum_of_the_other_sign(self):
+        """Fails if losses that are negative, as with time as exp(-iwt), are fitted, or the command line that turns them
+        does not."""
+        self.write("turned.csv", "frequency [Hz],storage [N/m],loss [N/m]\n" + "".join(
+            f"{w / (2 * math.pi)!r},{G.real!r},{-G.imag!r}\n"
+            for w in (0.1 * 1.3 ** i for i in range(30)) for G in [100 + 150 * 0.3j * w / (1 + 0.3j * w)]))
+        told = self.refused("fit", "turned.csv", "-o", "zener.json", code="recording-signs").stderr
+        answer = re.search(r"this turns the sign of loss: dashpot (.*?)(?: \[[a-z-]+\])?$", told, re.MULTILINE)[1]
+        self.dashpot(*answer.split())
+        found = json.loads((self.folder / "zener.json").read_text())["fit"]
+        self.assertGreater(found["r_squared"], 0.999999)
+
     def test_what_only_a_motion_has(self):
         """Fails if an option that is about positions and forces over time crashes on a relaxation, creep or a spectrum,
         or is passed over in silence there; or if that is another error once the header has said what the recording

@@ -133,6 +133,8 @@ std::vector<BrokenRecording> broken_recordings() {
        "from it", "modulus=modulus"},
       {"a relaxation below zero", "time [s],modulus [N/m]\n0,-3\n1,-2\n2,-1\n", "recording-signs", 2,
        "--columns modulus=-modulus", "modulus=modulus"},
+      {"a spectrum of the other sign", "omega [rad/s],G' [N/m],G'' [N/m]\n1,2,-1\n2,3,-1\n3,4,0.1\n", "recording-signs",
+       2, "sign of loss: dashpot fit a.csv --columns \"omega=omega,storage=G',loss=-G''\""},
       {"metadata, and no units", "Cylinder Diameter: 50mm;\ntime,position,force\n0,0,0\n1,1,1\n2,2,2\n",
        "recording-unit-missing", 0, "Cylinder Diameter: 50mm"},
   };
@@ -251,6 +253,13 @@ TEST(SoundRecording, BeginsAtRest) {
   const auto late = read(head + "0,50,5\n1,60,6\n2,70,7\n3,80,8\n", "", true, diagnostics);
   ASSERT_TRUE(late);
   EXPECT_TRUE(late->begins_in_motion);
+}
+
+// Fails if the noise of a phase is taken for a wrong sign, of a solid that hardly loses anything.
+TEST(SoundRecording, MayLoseNothing) {
+  Diagnostics diagnostics;
+  const std::string lossless = "omega [rad/s],storage [N/m],loss [N/m]\n1,2,-0.01\n2,2,0.002\n3,2,-0.02\n";
+  EXPECT_TRUE(read(lossless, "", true, diagnostics)) << render_text(diagnostics);
 }
 
 // Fails if a sine that is cut out where it passes 0 is taken for a motion from rest, or a ramp from rest for a cut.

@@ -77,7 +77,7 @@ class FitCommand {
     if (!read_all(words_.recordings, recordings_) || !read_all(words_.hold_out, held_out_))
       return ExitStatus::input_refused;
     if (!are_alike()) return ExitStatus::input_refused;
-    if (!suits(recordings_.front().kind)) return ExitStatus::command_line_wrong;
+    if (!suits(recordings_.front().kind) || !has_deviations()) return ExitStatus::command_line_wrong;
     if (!settle_surface()) return ExitStatus::input_refused;
     settle_form();
     const std::optional<Fit> found = fit(recordings_, held_out_, choices_, diagnostics_,
@@ -150,8 +150,28 @@ class FitCommand {
          {ForMotions{words_.shape.value_or("none") != "none", "--shape", needs_a_motion},
           {words_.elastic, "--elastic", needs_a_motion},
           {words_.slips != "none", "--slips", "slips are fitted to positions over time"},
-          {words_.contact.has_value(), "--contact", "a surface is found and left by a tool that moves"}})
+          {words_.contact.has_value(), "--contact", "a surface is found and left by a tool that moves"},
+          {words_.tare, "--tare", "the sensor's offset is found where the force changes with the position"},
+          {words_.force_delay.has_value(), "--force-delay", "forces are moved in time against positions"},
+          {words_.start != "auto", "--start", "it says how a motion begins"},
+          {words_.springpots != "none" && kind == RecordingKind::creep, "--springpots auto",
+           "springpots are fitted as stiffness"},
+          {words_.control == "force" && kind != RecordingKind::creep, "--control force", "it is about a motion"}})
       if (is_asked) return contradicts(option, other.c_str(), why);
+    return true;
+  }
+
+  bool has_deviations() {
+    if (words_.weight != "deviation") return true;
+    if (recordings_.front().kind == RecordingKind::motion && words_.control == "force")
+      return contradicts("--weight deviation", "--control force", "the deviation is that of the force");
+    for (const std::vector<Recording>* list : {&recordings_, &held_out_})
+      for (const Recording& recording : *list)
+        if (recording.deviation.empty())
+          return contradicts(
+              "--weight deviation", ("'" + recording.name + "'").c_str(),
+              "it has no column that is clearly a deviation; --columns deviation=NAME:UNIT says which is "
+              "one");
     return true;
   }
 

@@ -350,11 +350,30 @@ int main() {
                 if option[0] == "--control" and "creep" in other: continue
                 done = self.dashpot("fit", name, *words, *option, "-o", "not.json", status=COMMAND_LINE_WRONG)
                 self.assertRegex(done.stderr, rf"{option[0]}( force)? with {other}: .*\[fit-choices-contradict\]")
+        done = self.dashpot("fit", "creep.csv", "--springpots", "auto", status=COMMAND_LINE_WRONG)
+        self.assertIn("--springpots auto with creep: ", done.stderr)
         self.assertNotIn("not.json", self.files())
 
     # Controlled forces are what creep is.
     ONLY_OF_A_MOTION = (["--contact", "1mm"], ["--contact", "find"], ["--shape", "auto"], ["--elastic"],
-                        ["--slips", "auto"])
+                        ["--slips", "auto"], ["--tare"], ["--force-delay", "5ms"], ["--start", "moving"],
+                        ["--control", "force"])
+
+    def test_weights_that_are_not_there(self):
+        """Fails if rows are said to be weighed by a deviation that no column has, or one of the force weighs
+        positions."""
+        self.write("zener.csv", recording())
+        header, *rows = recording().splitlines()
+        self.write("measured.csv", "\n".join([header + ",sd [mN]", *(row + ",1" for row in rows)]) + "\n")
+        weighed = ["--weight", "deviation"]
+        for words, other in ((["zener.csv"], "'zener.csv': it has no column"),
+                             (["measured.csv", "zener.csv"], "'zener.csv': it has no column"),
+                             (["measured.csv", "--hold-out", "zener.csv"], "'zener.csv': it has no column"),
+                             (["measured.csv", "--control", "force"], "--control force: ")):
+            done = self.dashpot("fit", *words, *weighed, status=COMMAND_LINE_WRONG)
+            self.assertIn(f"--weight deviation with {other}", done.stderr)
+            self.assertIn("[fit-choices-contradict]", done.stderr)
+        self.assertIn("K1 150", self.fit("measured.csv", *weighed).stdout)
 
     def test_advice_that_suits_a_relaxation(self):
         """Fails if a relaxation that no network explains is told to try what only a motion has."""

@@ -169,7 +169,25 @@ std::string letters_of(std::string_view text) {
   for (const char c : text)
     if (std::isalnum(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80)
       letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto is_first_byte = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+  const bool is_symbol = std::count_if(letters.begin(), letters.end(), is_first_byte) == 1;
+  if (is_symbol && text.find_first_of("*|") != std::string_view::npos) return letters + "star";  // G*, |G*|, |G|
   return letters + (primes == 1 ? "prime" : primes == 2 ? "doubleprime" : "");
+}
+
+// What rheometers write beside or in place of storage and loss. None of it is read, so it stands for no other quantity.
+// The letter of the loss angle is that of an indentation too.
+bool is_unread(const std::string& letters, RecordingKind kind) {
+  static const std::vector<std::string> always = {
+      "gstar",      "estar",        "kstar",    "jstar", "complexmodulus", "complexshearmodulus", "complexviscosity",
+      "etastar",    "ηstar",        "tandelta", "tand",  "tanδ",           "tangentdelta",        "losstangent",
+      "lossfactor", "dampingfactor"};
+  static const std::vector<std::string> of_spectra = {"delta",      "δ",        "lossangle", "phase",
+                                                      "phaseangle", "phaselag", "phaseshift"};
+  const auto has = [&](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), letters) != names.end();
+  };
+  return has(always) || (kind == RecordingKind::frequency && has(of_spectra));
 }
 
 std::vector<TableColumn> columns_of(const TableShape& shape) {
@@ -242,8 +260,12 @@ class Chooser {
   }
 
   bool has_unit(Role role) const {
-    return std::any_of(columns_.begin(), columns_.end(),
-                       [&](const TableColumn& column) { return column.unit && unit_of_column(column, role); });
+    return std::any_of(columns_.begin(), columns_.end(), [&](const TableColumn& column) {
+      const auto unit = column.unit ? unit_of_column(column, role) : std::nullopt;
+      const bool is_other =
+          is_unread(letters_of(column.name), RecordingKind::frequency);  // "phase [deg]", not "δ [mm]"
+      return unit && (!is_other || unit->dimension == dimensions::length);
+    });
   }
 
   bool is_there(Role role) const { return has(role) || !candidates(role).empty(); }
@@ -424,6 +446,7 @@ class Chooser {
     const std::vector<std::vector<Role>> groups = needed();
     std::vector<std::optional<Offer>> offers(groups.size());
     std::vector<bool> is_used(shape_.width);
+    for (std::size_t i = 0; i < columns_.size(); ++i) is_used[i] = is_unread(letters_of(columns_[i].name), kind());
     for (const ChosenColumn& column : chosen_) is_used[column.index] = true;
     for (std::size_t i = 0; i < groups.size(); ++i)
       if ((offers[i] = named_offer(groups[i]))) is_used[offers[i]->index] = true;
@@ -485,6 +508,8 @@ class Chooser {
   void note_answer() {
     if (const std::optional<Answer> line = answer())
       diagnostics_.note<DiagnosticCode::recording_answer>({}, line->condition, line->command);
+    else if (kind() == RecordingKind::frequency && !unread_titles().empty())
+      diagnostics_.note<DiagnosticCode::recording_loss_remedy>({}, fmt::format("{}", fmt::join(unread_titles(), ", ")));
     else if (shape_.width < needed().size())
       diagnostics_.note<DiagnosticCode::recording_too_few_columns>({}, counted(shape_.width, "column"),
                                                                    words_of_needed());
@@ -492,6 +517,13 @@ class Chooser {
     if (!shape_.metadata.empty())
       diagnostics_.note<DiagnosticCode::recording_metadata>(
           {}, excerpt(fmt::format("{}", fmt::join(shape_.metadata, " | "))));
+  }
+
+  std::vector<std::string> unread_titles() const {
+    std::vector<std::string> titles;
+    for (const TableColumn& column : columns_)
+      if (is_unread(letters_of(column.name), kind())) titles.push_back("'" + column.title + "'");
+    return titles;
   }
 
   void ask_for_unit(Role role, const std::string& title) {

@@ -133,6 +133,13 @@ std::vector<BrokenRecording> broken_recordings() {
        "from it", "modulus=modulus"},
       {"a relaxation below zero", "time [s],modulus [N/m]\n0,-3\n1,-2\n2,-1\n", "recording-signs", 2,
        "--columns modulus=-modulus", "modulus=modulus"},
+      {"a magnitude and a tangent", "frequency [Hz],G* [kPa],tan delta\n1,2,0.3\n2,3,0.3\n3,4,0.3\n",
+       "recording-column-missing", 0,
+       "'G* [kPa]', 'tan delta' cannot stand for them; columns of storage and loss are needed"},
+      {"a magnitude and an angle", "freq [Hz],|G*| [Pa],phase angle [deg]\n1,2,9\n2,3,9\n3,4,9\n",
+       "recording-column-missing", 0, "loss = |G*| sin δ"},
+      {"a storage and a tangent", "omega [rad/s],G' [Pa],tan δ\n1,2,0.3\n2,3,0.3\n3,4,0.3\n",
+       "recording-column-missing", 0, "loss = storage · tan δ"},
       {"a spectrum of the other sign", "omega [rad/s],G' [N/m],G'' [N/m]\n1,2,-1\n2,3,-1\n3,4,0.1\n", "recording-signs",
        2, "sign of loss: dashpot fit a.csv --columns \"omega=omega,storage=G',loss=-G''\""},
       {"metadata, and no units", "Cylinder Diameter: 50mm;\ntime,position,force\n0,0,0\n1,1,1\n2,2,2\n",
@@ -149,6 +156,22 @@ std::optional<ReadRecording> read(const std::string& text, const std::string& co
   LineReader lines("a.csv", text);
   if (!lines.open(diagnostics)) return std::nullopt;
   return read_recording(lines, choices, diagnostics);
+}
+
+// Fails if a column that is called like a quantity that is not read is offered as another one; or if one that is called
+// like none no longer is.
+TEST(BrokenRecording, UnreadColumnsAreNotOffered) {
+  const auto told = [](const std::string& header) {
+    Diagnostics diagnostics;
+    read(header + "\n1,2,0.3\n2,3,0.3\n3,4,0.3\n", "", true, diagnostics);
+    return render_text(diagnostics);
+  };
+  for (const char* header : {"frequency [Hz],G* [kPa],tan delta", "freq [Hz],|G*| [Pa],phase angle [deg]",
+                             "omega [rad/s],G' [Pa],tan δ", "f_Hz,η* [Pa s],δ [°]", "freq [Hz],E* [MPa],Loss Factor"})
+    EXPECT_EQ(told(header).find("--columns"), std::string::npos) << told(header);
+  EXPECT_NE(told("t,δ [mm],kraft").find("position=δ"), std::string::npos) << told("t,δ [mm],kraft");
+  EXPECT_NE(told("nu [Hz],real [kPa],imag").find("--columns frequency=nu,storage=real,loss=imag"), std::string::npos)
+      << told("nu [Hz],real [kPa],imag");
 }
 
 // Fails if something that is wrong passes, is told in other words or at another place, without what would do, or if the

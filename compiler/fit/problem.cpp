@@ -31,9 +31,9 @@ double relative_weight(const Recording& recording, const std::vector<double>& va
 double weight_of(const Recording& recording, const std::vector<double>& values, std::size_t row, Weighting weighting) {
   if (row < recording.assumed_rows || recording.is_free(row)) return 0;
   if (weighting == Weighting::relative) return relative_weight(recording, values, row);
-  if (weighting == Weighting::deviation && row < recording.deviation.size())
-    return recording.deviation[row] > 0 ? 1 / recording.deviation[row] : 0;
-  return 1;
+  if (weighting != Weighting::deviation || recording.deviation.empty()) return 1;
+  const double deviation = recording.deviation[row % recording.time.size()];  // of storage and loss alike
+  return deviation > 0 ? 1 / deviation : 0;
 }
 
 }  // namespace

@@ -375,6 +375,17 @@ int main() {
             self.assertIn("[fit-choices-contradict]", done.stderr)
         self.assertIn("K1 150", self.fit("measured.csv", *weighed).stdout)
 
+    def test_losses_are_weighed_by_their_deviation(self):
+        """Fails if the deviation of a spectrum weighs its storages alone: here every third row is wrong, and said to
+        be."""
+        spectrum = [(w, 100 + 150 * 0.3j * w / (1 + 0.3j * w)) for w in (0.1 * 1.3 ** i for i in range(30))]
+        self.write("doubted.csv", "omega [rad/s],storage [N/m],loss [N/m],sd [N/m]\n" + "".join(
+            f"{w!r},{G.real!r},{G.imag + (200 if i % 3 == 0 else 0)!r},{1e6 if i % 3 == 0 else 1}\n"
+            for i, (w, G) in enumerate(spectrum)))
+        for element, value in zip(self.told("doubted.csv", "--weight", "deviation")["elements"], (100, 150, 45),
+                                  strict=True):
+            self.assertAlmostEqual(element["value"] / value, 1, places=3)
+
     def test_advice_that_suits_a_relaxation(self):
         """Fails if a relaxation that no network explains is told to try what only a motion has."""
         self.write("waves.csv", "time [s],modulus [N/m]\n" + "".join(

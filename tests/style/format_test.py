@@ -8,12 +8,14 @@ of Python do. What stands in a raw string, or in three quotes, is left as it is 
 in its own lines.
 """
 import ast
+import io
 import pathlib
 import re
 import shlex
 import shutil
 import subprocess
 import sys
+import tokenize
 import unicodedata
 import unittest
 
@@ -57,14 +59,12 @@ def python_sources():
 
 def python_text_lines(text):
     """Numbers of the lines that hold a part of a string in three quotes, but for docstrings."""
-    tree = ast.parse(text)
     documented = (ast.Module, ast.ClassDef, ast.FunctionDef)
-    docstrings = {id(node.body[0].value) for node in ast.walk(tree)
+    docstrings = {node.body[0].lineno for node in ast.walk(ast.parse(text))
                   if isinstance(node, documented) and isinstance(node.body[0], ast.Expr)}
-    return {number for node in ast.walk(tree)
-            if isinstance(node, (ast.Constant, ast.JoinedStr)) and id(node) not in docstrings
-            and '"""' in ast.get_source_segment(text, node)
-            for number in range(node.lineno, node.end_lineno + 1)}
+    return {number for token in tokenize.generate_tokens(io.StringIO(text).readline)
+            if token.type == tokenize.STRING and '"""' in token.string and token.start[0] not in docstrings
+            for number in range(token.start[0], token.end[0] + 1)}
 
 
 class Style(unittest.TestCase):

@@ -45,6 +45,9 @@ ExitStatus write_output(const Options& options, const std::string& text, Diagnos
 // False, with a diagnostic, if an output would overwrite one of the input files.
 bool spares_inputs(const Options& options, const std::vector<std::string>& outputs, Diagnostics& diagnostics);
 
+// False, with a diagnostic, if two outputs are one file, by whatever names.
+bool are_apart(const std::vector<std::string>& outputs, Diagnostics& diagnostics);
+
 // Refuses: what is no device of two axes.
 std::optional<AxesDevice> read_axes_device(const SourceFile& file, Diagnostics& diagnostics);
 

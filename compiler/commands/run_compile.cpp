@@ -100,17 +100,10 @@ void refuse_file_for_folder(const Options& options, const std::vector<OutputFile
     diagnostics.report<DiagnosticCode::output_like_a_file>({}, folder.string(), like_it->name);
 }
 
-void report_same_names(const std::vector<OutputFile>& files, Diagnostics& diagnostics) {
-  const auto place = [](const OutputFile& file) { return std::filesystem::path(file.name).lexically_normal(); };
-  for (std::size_t i = 0; i < files.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (place(files[i]) == place(files[j])) diagnostics.report<DiagnosticCode::same_output>({}, files[i].name);
-}
-
-bool spares_inputs(const Options& options, const std::vector<OutputFile>& files, Diagnostics& diagnostics) {
+std::vector<std::string> names_in(const std::vector<OutputFile>& files) {
   std::vector<std::string> names;
   for (const OutputFile& file : files) names.push_back(file.name);
-  return spares_inputs(options, names, diagnostics);
+  return names;
 }
 
 bool has_option(const Target& target, std::string_view option) {
@@ -246,9 +239,8 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
   std::vector<OutputFile> all = placed(std::move(outputs), options, axes);
   if (options.certificate) all.push_back({*options.certificate, certificate});
   if (options.proof) all.push_back({*options.proof, proof});
-  report_same_names(all, diagnostics);
-  if (diagnostics.has_errors()) return ExitStatus::input_refused;
-  if (!spares_inputs(options, all, diagnostics)) return ExitStatus::command_line_wrong;
+  if (!are_apart(names_in(all), diagnostics) || diagnostics.has_errors()) return ExitStatus::input_refused;
+  if (!spares_inputs(options, names_in(all), diagnostics)) return ExitStatus::command_line_wrong;
   return write_files("", all, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }
 

@@ -101,22 +101,8 @@ class FitCommand {
     return false;
   }
 
-  // As a folder is reached by many names, so is a file in it.
-  static std::filesystem::path place_of_file(const std::string& name) {
-    std::error_code unreachable;
-    const auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(name), unreachable);
-    return unreachable ? std::filesystem::path(name).lexically_normal() : place;
-  }
-
-  bool writes_two_files() {
-    if (!options_.output || !words_.report || place_of_file(*options_.output) != place_of_file(*words_.report))
-      return true;
-    diagnostics_.report<DiagnosticCode::same_output>({}, *words_.report);
-    return false;
-  }
-
   bool take_words() {
-    if (!writes_two_files()) return false;
+    if (options_.output && words_.report && !are_apart({*options_.output, *words_.report}, diagnostics_)) return false;
     if (words_.name && !check_name({*words_.name, {}}, "network", diagnostics_)) return false;
     if (words_.relaxation && words_.creep) return contradicts("--relaxation", "--creep", "a recording is one of them");
     read_.columns.is_relaxation = words_.relaxation;

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "commands/commands.hpp"
 #include "syntax/parse_axes.hpp"
@@ -66,6 +67,28 @@ DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics
 
 DeviceChoice open_any_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
   return opened(options, true, files, diagnostics);
+}
+
+namespace {
+
+// As a folder is reached by many names, so is a file in it.
+std::string place_of(const std::string& name) {
+  std::error_code unreachable;
+  const auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(name), unreachable);
+  return (unreachable ? std::filesystem::path(name).lexically_normal() : place).string();
+}
+
+}  // namespace
+
+bool are_apart(const std::vector<std::string>& outputs, Diagnostics& diagnostics) {
+  std::set<std::string> places;
+  bool apart = true;
+  for (const std::string& output : outputs) {
+    if (places.insert(place_of(output)).second) continue;
+    diagnostics.report<DiagnosticCode::same_output>({}, output);
+    apart = false;
+  }
+  return apart;
 }
 
 bool spares_inputs(const Options& options, const std::vector<std::string>& outputs, Diagnostics& diagnostics) {

@@ -150,8 +150,10 @@ class WrongCommandLine(CommandTest):
             self.refused(*arguments, code="would-overwrite-input", status=COMMAND_LINE_WRONG)
         for input in ["n.json", "kelvin.hpp"]:
             self.assertEqual((self.folder / input).read_text(), KELVIN)
+        (self.folder / "here").symlink_to(".")
         for second in ["--certificate", "--depfile"]:
-            self.refused("compile", "n.json", "-o", "out", second, "out/./kelvin.hpp", code="same-output")
+            for place in ["out/./kelvin.hpp", "here/out/kelvin.hpp"]:
+                self.refused("compile", "n.json", "-o", "out", second, place, code="same-output")
         self.assertFalse((self.folder / "out").exists())
 
     def test_of_choices_that_exclude_each_other(self):

@@ -200,6 +200,31 @@ std::vector<TableColumn> columns_of(const TableShape& shape) {
   return columns;
 }
 
+std::optional<std::size_t> index_of(const std::string& name, const std::vector<TableColumn>& columns,
+                                    std::size_t width) {
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].title == name || columns[i].name == name) return i;
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (letters_of(columns[i].name) == letters_of(name) && !letters_of(name).empty()) {
+      if (found) return std::nullopt;
+      found = i;
+    }
+  if (found) return found;
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  const bool is_number = error == std::errc() && end == name.data() + name.size();
+  if (is_number && number >= 1 && number <= width) return number - 1;
+  return std::nullopt;
+}
+
+// The name of a column; its number where it has none, or where the name would be read as something else.
+std::string spelt_by(const std::string& name, std::size_t index, const std::vector<TableColumn>& columns,
+                     std::size_t width) {
+  const bool is_plain = !name.empty() && name.find_first_of(",:=+-") == std::string::npos;
+  return is_plain && index_of(name, columns, width) == index ? name : std::to_string(index + 1);
+}
+
 class Chooser {
  public:
   Chooser(const std::string& path, const TableShape& shape, const ColumnSearch& search, Diagnostics& diagnostics)
@@ -295,25 +320,8 @@ class Chooser {
     });
   }
 
-  std::optional<std::size_t> index_of(const std::string& name) const {
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (columns_[i].title == name || columns_[i].name == name) return i;
-    std::optional<std::size_t> found;
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (letters_of(columns_[i].name) == letters_of(name) && !letters_of(name).empty()) {
-        if (found) return std::nullopt;
-        found = i;
-      }
-    if (found) return found;
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-    const bool is_number = error == std::errc() && end == name.data() + name.size();
-    if (is_number && number >= 1 && number <= shape_.width) return number - 1;
-    return std::nullopt;
-  }
-
   void take(const ColumnRequest& request) {
-    const std::optional<std::size_t> index = index_of(request.name);
+    const std::optional<std::size_t> index = index_of(request.name, columns_, shape_.width);
     if (!index) return report_missing(request);
     const RoleRule& rule = rule_of(request.role);
     const bool is_named = *index < columns_.size();
@@ -471,7 +479,7 @@ class Chooser {
         std::string unit;
         for (const ColumnRequest& request : search_.requests)
           if (request.role == role && request.unit) unit = ":" + *request.unit;
-        return Offer{role, column->index, spelt(column->index, column->title) + unit};
+        return Offer{role, column->index, spelt_by(column->title, column->index, columns_, shape_.width) + unit};
       }
     for (const Role role : group)
       if (const std::vector<std::size_t> found = candidates(role); !found.empty()) return offer_of(role, found.front());
@@ -496,13 +504,8 @@ class Chooser {
     const std::string likely = rule_of(role).likely_unit;
     const std::string name = index < columns_.size() ? columns_[index].name : "";
     const bool guesses_unit = !has_unit && likely != "1";
-    return {role, index, spelt(index, name) + (guesses_unit ? ":" + likely : ""), guesses_unit};
-  }
-
-  // The column's name; its number where the name has none, or would be read as something else.
-  std::string spelt(std::size_t index, const std::string& name) const {
-    const bool is_plain = !name.empty() && name.find_first_of(",:=+-") == std::string::npos;
-    return is_plain && index_of(name) == index ? name : std::to_string(index + 1);
+    return {role, index, spelt_by(name, index, columns_, shape_.width) + (guesses_unit ? ":" + likely : ""),
+            guesses_unit};
   }
 
   void note_answer() {
@@ -650,6 +653,11 @@ std::string columns_word(const std::string& columns) {
   const bool has_primes = columns.find('\'') != std::string::npos;  // better to read between double quotes
   const bool is_plain = columns.find_first_of("\"$`\\!") == std::string::npos;
   return has_primes && is_plain ? '"' + columns + '"' : shell_word(columns);
+}
+
+std::string spelt(const TableShape& shape, std::size_t index) {
+  const std::vector<TableColumn> columns = columns_of(shape);
+  return spelt_by(index < columns.size() ? columns[index].name : "", index, columns, shape.width);
 }
 
 const char* name_of(Role role) { return rule_of(role).word; }

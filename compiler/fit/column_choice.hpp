@@ -110,6 +110,9 @@ const ChosenColumn* find_column(const std::vector<ChosenColumn>& columns, Role r
 std::string shell_word(const std::string& word);       // as a shell takes it
 std::string columns_word(const std::string& columns);  // the same of what follows --columns
 
+// What --columns calls a column: its name, or its number where that would be read as something else.
+std::string spelt(const TableShape& shape, std::size_t index);
+
 // A quantity as the command line spells it, "10 mm" or "1kPa".
 struct SpokenQuantity {
   double value;  // SI

@@ -406,7 +406,7 @@ class RecordingReader {
                                         [&](const ColumnRequest& r) { return r.role == column.role; });
       std::string part = std::string(name_of(column.role)) + "=";
       if (request == choices_.columns.requests.end()) {
-        part += (is_turned ? "-" : "") + spelt(column);
+        part += (is_turned ? "-" : "") + spelt(shape_, column.index);
       } else {
         part += (request->is_negated != is_turned ? "-" : "") + request->name;
         if (request->offset != 0) part += fmt::format("{:+}", request->offset);
@@ -415,15 +415,6 @@ class RecordingReader {
       parts.push_back(part);
     }
     return choices_.columns.command + " --columns " + columns_word(fmt::format("{}", fmt::join(parts, ",")));
-  }
-
-  // A column's name; its number where others have the name, or it would be read as something else.
-  std::string spelt(const ChosenColumn& column) const {
-    std::string name = table_column(column.title).name;
-    const auto same = [&](const std::string& title) { return table_column(title).name == name; };
-    const bool is_plain = !name.empty() && name.find_first_of(",:=+-") == std::string::npos;
-    const bool is_one = std::count_if(shape_.names.begin(), shape_.names.end(), same) == 1;
-    return is_plain && is_one ? name : std::to_string(column.index + 1);
   }
 
   void check_saturation(double range) {

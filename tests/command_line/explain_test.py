@@ -411,10 +411,12 @@ class Json(CommandTest):
             "brake": {"kind": "eddy_current", "max_damping": "2.8 N s/m", "tolerance": "8 %"},
             "mechanics": {"damping": "0.06 N s/m"}}
     TUNED = network(
-        """{ "parallel": [ { "spring": "k0" }, { "damper": 1.5 }, { "series": [ { "spring": 320 }, { "damper": 20 } ] } ] }""",
+        '{ "parallel": [ { "spring": "k0" }, { "damper": 1.5 }, '
+        '{ "series": [ { "spring": 320 }, { "damper": 20 } ] } ] }',
         "tuned", '"parameters": { "k0": { "value": "100 N/m", "tunable": true, "min": "50 N/m", "max": "300 N/m" } },')
     PAD = network(
-        """{ "parallel": [ { "spring": 100 }, { "damper": 0.6 }, { "series": [ { "spring": 160 }, { "damper": 20 } ] } ] }""", "pad")
+        '{ "parallel": [ { "spring": 100 }, { "damper": 0.6 }, '
+        '{ "series": [ { "spring": 160 }, { "damper": 20 } ] } ] }', "pad")
 
     def chosen_row(self, *arguments):
         found = self.explained(*arguments)

@@ -846,8 +846,10 @@ class Certified(CommandTest):
     def test_what_would_do_for_tunables(self):
         """Fails if a box that its device cannot hold is refused without a brake, a share and a rate that would do, or
         if one of them would not."""
-        elements = """{"spring": "k", "nodes": ["tool", "p"]}, {"damper": "b", "nodes": ["p", "ground"]}, {"spring": SCALE, "nodes": ["tool", "ground"]}"""
-        box = """{"k": {"value": FIRST, "min": 0, "max": SECOND, "tunable": true}, "b": {"value": THIRD, "min": 0, "max": FOURTH, "tunable": true}}"""
+        elements = ('{"spring": "k", "nodes": ["tool", "p"]}, {"damper": "b", "nodes": ["p", "ground"]}, '
+                    '{"spring": SCALE, "nodes": ["tool", "ground"]}')
+        box = ('{"k": {"value": FIRST, "min": 0, "max": SECOND, "tunable": true}, '
+               '"b": {"value": THIRD, "min": 0, "max": FOURTH, "tunable": true}}')
 
         def written(share):
             text = of_elements(elements, "tuned", f'"parameters": {box},')

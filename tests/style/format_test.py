@@ -4,8 +4,8 @@ that asks of what kind an element is to one way.
     python3 format_test.py
 
 Comments that clang-format does not wrap, and a string that nobody has broken, can be longer: they fail here, as lines
-of Python do. What stands in a raw string, or in three quotes, is left as it is written: a network in a test reads best
-in its own lines.
+of Python do. What stands in a raw string, or in one of several lines, is left as it is written: a network in a test
+reads best in its own lines.
 """
 import ast
 import io
@@ -58,12 +58,12 @@ def python_sources():
 
 
 def python_text_lines(text):
-    """Numbers of the lines that hold a part of a string in three quotes, but for docstrings."""
+    """Numbers of the lines that hold a part of a string of several lines, but for docstrings."""
     documented = (ast.Module, ast.ClassDef, ast.FunctionDef)
     docstrings = {node.body[0].lineno for node in ast.walk(ast.parse(text))
                   if isinstance(node, documented) and isinstance(node.body[0], ast.Expr)}
     return {number for token in tokenize.generate_tokens(io.StringIO(text).readline)
-            if token.type == tokenize.STRING and '"""' in token.string and token.start[0] not in docstrings
+            if token.type == tokenize.STRING and token.start[0] not in (token.end[0], *docstrings)
             for number in range(token.start[0], token.end[0] + 1)}
 
 

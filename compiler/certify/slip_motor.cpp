@@ -153,9 +153,8 @@ std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& fo
   const SlipDecomposition& slips = decomposition.slips;
   Sum sum(network, {choices.scheme, Real(loop.sample_period), lateness(loop)}, loop.encoder_step, choices.scalar);
   const bool is_split = slips.components.size() == form.components.size();
-  const bool in_one = network.contact && !slips.networks.empty();  // all slips are in that network
   const std::vector<Real> nothing = {Real(0)};
-  for (std::size_t i = 0; !in_one && i < form.components.size(); ++i) {
+  for (std::size_t i = 0; i < form.components.size(); ++i) {
     const bool is_braked = is_split && !network.contact;
     sum.add(is_split ? slips.components[i].rendered : form.components[i],
             is_braked ? feedthroughs(slips.components[i]) : nothing);

@@ -13,16 +13,6 @@ PartDecomposer decomposer_of(SlipPart part, const Network& network) {
   return {std::move(part), has_tunables(network), network.contact.has_value()};
 }
 
-// With a contact and a part that is no tree, all slips are solved together.
-std::vector<std::vector<std::size_t>> network_parts(const Network& network, const NormalForm& form) {
-  if (!network.contact || form.networks.empty()) return form.networks;
-  std::vector<std::size_t> elements;
-  for (const NormalTree& component : form.components)
-    for (std::size_t element : elements_of(component)) elements.push_back(element);
-  for (const std::vector<std::size_t>& part : form.networks) elements.insert(elements.end(), part.begin(), part.end());
-  return {elements};
-}
-
 double largest_damping(const ComponentSplit& split) {
   double largest = 0;
   for (const BrakeShare& share : split.shares) largest = std::max(largest, share.damping);
@@ -81,9 +71,8 @@ std::optional<SlipLaw> slip_law_asked_for(const Choices& choices) {
 }
 
 SlipDecomposer::SlipDecomposer(const Network& network, const NormalForm& form, double reference_frequency) {
-  if (!network.contact || form.networks.empty())
-    for (const NormalTree& tree : form.components) components_.push_back(component(network, tree, reference_frequency));
-  for (const std::vector<std::size_t>& part : network_parts(network, form))
+  for (const NormalTree& tree : form.components) components_.push_back(component(network, tree, reference_frequency));
+  for (const std::vector<std::size_t>& part : form.networks)
     networks_.push_back(in_no_tree(network, part, reference_frequency));
 }
 

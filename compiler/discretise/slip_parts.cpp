@@ -17,20 +17,12 @@ NormalTree rendered_whole(const NormalForm& form, const Network& network, const 
   return whole;
 }
 
-std::vector<std::size_t> elements_behind_slips(const NormalForm& form) {
-  std::vector<std::size_t> elements;
-  for (const NormalTree& component : form.components)
-    for (std::size_t element : elements_of(component)) elements.push_back(element);
-  for (const std::vector<std::size_t>& part : form.networks) elements.insert(elements.end(), part.begin(), part.end());
-  return elements;
-}
-
 }  // namespace
 
 SlipParts::SlipParts(LawWriter& writer, const Network& network, const Real& sample_period, const NormalForm& form,
                      const SlipDecomposition& settings)
     : writer_(writer), network_(network), sample_period_(sample_period), settings_(settings) {
-  if (network.contact && form.has_slips()) {
+  if (network.contact && !form.components.empty()) {
     add_behind_contact(form);
     return;
   }
@@ -40,7 +32,7 @@ SlipParts::SlipParts(LawWriter& writer, const Network& network, const Real& samp
   }
   for (std::size_t i = 0; i < form.networks.size(); ++i) {
     const bool is_split = i < settings_.networks.size();
-    add(is_split ? settings_.networks[i].rendered_elements : form.networks[i], false);
+    add(is_split ? settings_.networks[i].rendered_elements : form.networks[i], network.contact.has_value());
     if (is_split) add_brake(settings_.networks[i], nullptr);
   }
 }
@@ -65,17 +57,12 @@ void SlipParts::add(const std::vector<std::size_t>& elements, bool is_pushed) {
 // How the surface moves depends on all that is behind it, so that is one tree, in which the states of the linear part
 // at the tool are the same as without slips.
 void SlipParts::add_behind_contact(const NormalForm& form) {
-  if (!form.networks.empty()) {
-    add(settings_.networks.empty() ? elements_behind_slips(form) : settings_.networks.front().rendered_elements, true);
-  } else {
-    whole_ = rendered_whole(form, network_, settings_);
-    const bool has_linear =
-        whole_.children.front().kind == NormalTree::Kind::block && whole_.kind == NormalTree::Kind::parallel;
-    trees_.push_back(std::make_unique<CoupledSlips>(writer_, network_, sample_period_, whole_));
-    if (has_linear) trees_.back()->keep_elsewhere(whole_.children.front());
-  }
-  for (const ComponentSplit* split : settings_.all())
-    add_brake(*split, trees_.empty() ? nullptr : trees_.front().get());
+  whole_ = rendered_whole(form, network_, settings_);
+  const bool has_linear =
+      whole_.children.front().kind == NormalTree::Kind::block && whole_.kind == NormalTree::Kind::parallel;
+  trees_.push_back(std::make_unique<CoupledSlips>(writer_, network_, sample_period_, whole_));
+  if (has_linear) trees_.back()->keep_elsewhere(whole_.children.front());
+  for (const ComponentSplit& split : settings_.components) add_brake(split, trees_.front().get());
 }
 
 void SlipParts::add_brake(const ComponentSplit& split, CoupledSlips* tree) {

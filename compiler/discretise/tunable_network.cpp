@@ -128,19 +128,12 @@ class TablesBuilder {
     else add_component(whole_tree(form, structure_), tree, !linear.empty());
   }
 
-  // Of what is no tree as a whole; with a contact all slips are solved together.
+  // Of what is no tree as a whole.
   void add_parts(const NormalForm& form) {
     blocks_.add(network_, linear_elements(form), false);
-    std::vector<std::size_t> together;
-    for (const NormalTree& component : form.components) {
-      const std::vector<std::size_t> elements = elements_of(component);
-      if (network_.contact) together.insert(together.end(), elements.begin(), elements.end());
-      else add_component(component, tree_of(elements), false);
-    }
-    for (const std::vector<std::size_t>& part : form.networks)
-      if (network_.contact) together.insert(together.end(), part.begin(), part.end());
-      else add_graph(part, form.linear);
-    if (!together.empty()) add_graph(together, form.linear);
+    for (const NormalTree& component : form.components)
+      add_component(component, tree_of(elements_of(component)), false);
+    for (const std::vector<std::size_t>& part : form.networks) add_graph(part, form.linear);
   }
 
   Tree tree_of(const std::vector<std::size_t>& elements) const {

@@ -96,6 +96,16 @@ std::optional<Tree> tree_of(Network network, const std::vector<std::size_t>& ele
   return series_parallel_tree(network);
 }
 
+// How the surface of a contact moves depends on all that is behind it, so that all slips are solved together.
+void join_behind_surface(NormalForm& form) {
+  std::vector<std::size_t> together;
+  for (const NormalTree& component : form.components)
+    for (std::size_t element : elements_of(component)) together.push_back(element);
+  for (const std::vector<std::size_t>& part : form.networks) together.insert(together.end(), part.begin(), part.end());
+  form.components.clear();
+  form.networks = {std::move(together)};
+}
+
 // Of a network that is no tree: parts that share no inner node are each linear, a tree, or neither.
 NormalForm form_by_parts(const Network& network) {
   NormalForm form;
@@ -108,6 +118,7 @@ NormalForm form_by_parts(const Network& network) {
   }
   std::sort(linear.begin(), linear.end());
   form.linear = linear_form(network, linear, tool, ground);
+  if (network.contact && !form.networks.empty()) join_behind_surface(form);
   return form;
 }
 

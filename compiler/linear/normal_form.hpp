@@ -23,9 +23,11 @@ struct NormalTree {
 };
 
 struct NormalForm {
-  LinearForm linear;                               // what reaches from tool to ground without a slip
-  std::vector<NormalTree> components;              // series with at least one slip each, in parallel with it
-  std::vector<std::vector<std::size_t>> networks;  // the same of parts that are no tree: indices into Network::elements
+  LinearForm linear;                   // what reaches from tool to ground without a slip
+  std::vector<NormalTree> components;  // series with at least one slip each, in parallel with it
+  // The same of parts that are no tree: indices into Network::elements. Behind a contact one of all slips, if any part
+  // is no tree; there are no components then.
+  std::vector<std::vector<std::size_t>> networks;
 
   bool has_slips() const { return !components.empty() || !networks.empty(); }
   bool is_all_behind_slips() const { return has_slips() && linear.is_empty(); }

@@ -8,15 +8,12 @@ namespace {
 // 3⁸ = 6,561 patterns; no bound is known that grows less. A step tries a few of them.
 constexpr std::size_t most_slips_outside_tree = 8;
 
-// The slips of the part that is no tree and has most; behind a contact all parts are one.
+// The slips of the part that is no tree and has most.
 std::size_t most_slips_together(const NormalForm& form, const Network& network) {
-  std::size_t most = 0, all = 0;
-  for (const std::vector<std::size_t>& elements : form.networks) {
+  std::size_t most = 0;
+  for (const std::vector<std::size_t>& elements : form.networks)
     most = std::max(most, slips_between(network, elements).size());
-    all += slips_between(network, elements).size();
-  }
-  for (const NormalTree& component : form.components) all += slip_count(component);
-  return network.contact && !form.networks.empty() ? all : most;
+  return most;
 }
 
 constexpr double two_pi = 6.28318530717958647692;

@@ -67,10 +67,6 @@ ReferenceCut least_cut(const Network& network, const std::vector<std::size_t>& e
 }  // namespace
 
 ReferenceTree rendered_tree(ReferenceTree tree, const Network& network, const SlipDecomposition& slips) {
-  if (network.contact && !slips.networks.empty()) {  // all slips are solved together
-    tree.networks = {elements_behind_slips(tree)};
-    tree.components.clear();
-  }
   for (std::size_t i = 0; i < std::min(tree.components.size(), slips.components.size()); ++i)
     if (slips.components[i].law == SlipLaw::gated)
       tree.components[i] = without_dampers_beside_slips(std::move(tree.components[i]));
@@ -86,16 +82,6 @@ ReferenceTree rendered_tree(ReferenceTree tree, const Network& network, const Sl
     });
   }
   return tree;
-}
-
-std::vector<std::size_t> elements_behind_slips(const ReferenceTree& tree) {
-  std::vector<std::size_t> elements;
-  for (const ReferencePart& component : tree.components) {
-    const std::vector<std::size_t> of_component = elements_of(component);
-    elements.insert(elements.end(), of_component.begin(), of_component.end());
-  }
-  for (const std::vector<std::size_t>& part : tree.networks) elements.insert(elements.end(), part.begin(), part.end());
-  return elements;
 }
 
 ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips,

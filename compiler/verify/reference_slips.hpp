@@ -9,12 +9,8 @@
 
 namespace dashpot::compiler {
 
-// As the laws compute it: under the gated law without the dampers beside slips; behind a contact slips outside a tree
-// with all others.
+// As the laws compute it: under the gated law without the dampers beside slips.
 ReferenceTree rendered_tree(ReferenceTree tree, const Network& network, const SlipDecomposition& slips);
-
-// Of all components and networks.
-std::vector<std::size_t> elements_behind_slips(const ReferenceTree& tree);
 
 // The least cut through springs, dampers and modes, each side of which no slip crosses (certify/cut.hpp): Σ k0/2 + Σ
 // c/(1 + a) and Σ b∞.

@@ -107,6 +107,15 @@ void collect(const ReferencePart& part, std::vector<std::size_t>& elements) {
   for (const ReferencePart& child : part.children) collect(child, elements);
 }
 
+// All slips move the surface together.
+void join_behind_surface(ReferenceTree& tree) {
+  std::vector<std::size_t> together;
+  for (const ReferencePart& component : tree.components) collect(component, together);
+  for (const std::vector<std::size_t>& part : tree.networks) together.insert(together.end(), part.begin(), part.end());
+  tree.components.clear();
+  tree.networks = {std::move(together)};
+}
+
 Network only(const std::vector<std::size_t>& elements, Network network) {
   for (Element& element : network.elements) element.has_effect = false;
   for (std::size_t i : elements) network.elements[i].has_effect = true;
@@ -150,6 +159,7 @@ ReferenceTree reference_tree(const Network& network) {
     else if (tree) result.components.push_back(part_of(*tree, network));
     else result.networks.push_back(part);
   }
+  if (network.contact && !result.networks.empty()) join_behind_surface(result);
   for (ReferencePart& component : result.components) fill_forms(component, network);
   result.linear = reference_form(result.linear_network);
   return result;

@@ -19,7 +19,8 @@ struct ReferencePart {
   std::vector<ReferencePart> children;
 };
 
-// What reaches ground without a slip, and the parts with slips beside it: trees, and others by their elements.
+// What reaches ground without a slip, and the parts with slips beside it: trees, and others by their elements. Behind a
+// contact all slips are one part if any are in no tree.
 struct ReferenceTree {
   Network linear_network;  // with all else marked as without effect
   ReferenceForm linear;

@@ -283,11 +283,6 @@ ReferenceTunables reference_tunables(const Network& network, const LawFacts& fac
   std::iota(all.begin(), all.end(), std::size_t{0});
   result.linear = linear ? blocks.block(laid_out(*linear, largest), elements_of(*linear))
                          : blocks.block(result.tree.linear_network, all);
-  if (network.contact && !result.tree.networks.empty()) {
-    const std::vector<std::size_t> behind_slips = elements_behind_slips(result.tree);
-    GraphBuilder(behind_slips, largest, blocks).add_to(result);
-    return result;
-  }
   for (const ReferencePart& component : result.tree.components) {
     result.blocks.emplace_back();
     add_blocks(component, largest, blocks, result.blocks.back(), result.yield_forces);

@@ -51,7 +51,7 @@ SlipEquations::SlipEquations(const ReferenceTree& tree, ReferenceForm linear, co
       whole_(reference_constants(linear_, facts)),
       behind_surface_{Kind::parallel, {}, {}, 0, {}} {
   for (const ElementList& part : tree.networks) networks_.push_back({sorted(part), reference_network(network, part)});
-  if (network.contact && tree.networks.empty() && tree.has_slips()) {
+  if (network.contact && !tree.components.empty()) {
     behind_surface_ = whole_of(tree);
     index(behind_surface_);
     return;

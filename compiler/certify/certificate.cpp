@@ -149,7 +149,8 @@ PassivityBound bound_beside_slips(const MotorConstants& linear, const SlipMotor&
                                   std::size_t terms) {
   PassivityBound nothing;
   nothing.proof = Proof::hold;
-  return slips.behind_contact || linear.is_idle() ? nothing : passivity_bound(linear, loop, terms);
+  const MotorConstants beside = motor_beside(slips, linear);
+  return beside.is_idle() ? nothing : passivity_bound(beside, loop, terms);
 }
 
 // The needed dampings add up, and of the two kinds of proof the weaker one is stated.

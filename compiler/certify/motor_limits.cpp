@@ -44,10 +44,10 @@ Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& sli
   Gains gains;
   gains.follows_estimate = linear.estimate_drives_modes();
   if (gains.follows_estimate) gains.hindrance = "the velocity estimate drives the states";
-  const bool is_beside = !slips || !slips->behind_contact;
-  if (is_beside && gains.hindrance.empty()) {
-    gains.position = position_stiffness(linear);
-    add_estimate(std::abs(linear.velocity_gain), loop, gains);
+  if (gains.hindrance.empty()) {
+    const MotorConstants beside = motor_beside(slips, linear);
+    gains.position = position_stiffness(beside);
+    add_estimate(std::abs(beside.velocity_gain), loop, gains);
   }
   if (!slips) return gains;
   gains.position += slips->stiffness;
@@ -70,17 +70,15 @@ Unbounded unbounded(const Gains& gains, const std::optional<SlipMotor>& slips, c
   return gains.follows_estimate ? Unbounded::estimate : Unbounded::dampers;
 }
 
-// F_i = c_i (u − q_i), q_i an average of where the tool has been: within the travel R no more than c_i R.
-double largest_force(const MotorConstants& linear, const std::optional<SlipMotor>& slips, const SampledLoop& loop) {
-  double stiffness = slips ? 2 * slips->stiffness : 0;
-  if (!slips || !slips->behind_contact) stiffness += linear.static_stiffness + linear.step_stiffness;
-  return stiffness * loop.travel * margin;
-}
-
 // Of the spring that holds before anything gives way.
 double stiffness_of(const MotorConstants& linear, const std::optional<SlipMotor>& slips) {
-  const double beside = slips && slips->behind_contact ? 0 : linear.static_stiffness + linear.step_stiffness;
-  return beside + (slips ? 2 * slips->stiffness : 0);
+  const MotorConstants beside = motor_beside(slips, linear);
+  return beside.static_stiffness + beside.step_stiffness + (slips ? 2 * slips->stiffness : 0);
+}
+
+// F_i = c_i (u − q_i), q_i an average of where the tool has been: within the travel R no more than c_i R.
+double largest_force(const MotorConstants& linear, const std::optional<SlipMotor>& slips, const SampledLoop& loop) {
+  return stiffness_of(linear, slips) * loop.travel * margin;
 }
 
 bool is_enough(const std::optional<double>& wanted, double given) { return given == 0 || (wanted && *wanted <= given); }

@@ -109,7 +109,7 @@ PassivityBound bound_by_gap(const MotorConstants& motor, const SampledLoop& loop
 
 PassivityBound bound_beside_slips_by_gap(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop,
                                          double gap, std::size_t terms) {
-  const bool is_there = !slips.behind_contact && !linear.is_idle();
+  const bool is_there = !motor_beside(slips, linear).is_idle();
   return is_there ? bound_by_gap(linear, loop, gap, terms) : bound_beside_slips(linear, slips, loop, terms);
 }
 

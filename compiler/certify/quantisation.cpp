@@ -128,7 +128,7 @@ std::optional<double> estimate_pulse(const SampledLoop& loop) {
 std::optional<double> quantisation_gain(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop) {
   const double compensation = slips.compensation + slips.held_compensation;
   const std::optional<double> pulse = compensation > 0 ? estimate_pulse(loop) : 0;
-  const std::optional<double> beside = slips.behind_contact ? 0 : quantisation_gain(linear, loop);
+  const std::optional<double> beside = quantisation_gain(motor_beside(slips, linear), loop);
   if (!pulse || !beside || slips.slides_within_step) return std::nullopt;
   return *beside + slips.held_gain + compensation * *pulse;
 }

@@ -134,6 +134,10 @@ class Sum {
 
 }  // namespace
 
+MotorConstants motor_beside(const std::optional<SlipMotor>& slips, const MotorConstants& linear) {
+  return slips && slips->behind_contact ? MotorConstants{} : linear;
+}
+
 double lateness(const SampledLoop& loop) {
   const double late = time_of_lateness(loop);
   return (loop.delay_samples + 1 + (std::isfinite(late) ? late / (2 * loop.longest_hold()) : 0)) * (1 + 1e-14);

@@ -19,6 +19,7 @@
 
 #include <optional>
 
+#include "certify/motor_constants.hpp"
 #include "certify/sampled_loop.hpp"
 #include "decompose/decomposition.hpp"
 #include "linear/normal_form.hpp"
@@ -42,6 +43,9 @@ struct SlipMotor {
 // Empty for a network without slips or contact.
 std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& form, const Decomposition& decomposition,
                                     const Choices& choices, const SampledLoop& loop);
+
+// `linear`, of what reaches ground without a slip; nothing behind a contact, where the slips' motor is of all of it.
+MotorConstants motor_beside(const std::optional<SlipMotor>& slips, const MotorConstants& linear);
 
 // s, not below it; without the lag where two samples may follow at once, of which nothing is proved.
 double lateness(const SampledLoop& loop);

@@ -17,6 +17,8 @@ double nearest(const Reference& value, ScalarType scalar) {
 
 const Reference cancellation_share{"1e-30"};  // of the whole: what is below is left over from rounding
 
+const Reference halfway{"1e-25"};  // of the distance to a number: another that is hardly nearer is as near
+
 // 2⁻²⁰⁰ N and 2⁻⁶⁰ N are taken for zero; a constant is zero where its product with them would be subnormal.
 double threshold(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-200 : 0x1p-60; }
 double smallest(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-822 : 0x1p-66; }
@@ -82,7 +84,7 @@ std::map<std::string, std::vector<Reference>> reference_constants(const Referenc
 bool is_correctly_rounded(double value, const Reference& exact, ScalarType scalar) {
   if (value == 0) return abs(exact) <= Reference(smallest(scalar));
   if (std::abs(value) < smallest(scalar)) return false;
-  const Reference error = abs(Reference(value) - exact);
+  const Reference error = abs(Reference(value) - exact) * (1 - halfway);
   for (const double towards : {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()})
     if (abs(Reference(neighbour(value, towards, scalar)) - exact) < error) return false;
   return true;

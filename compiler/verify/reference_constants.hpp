@@ -35,7 +35,8 @@ Reference companion(const ReferenceForm& form, const LawFacts& facts);
 // law of this kind does not have are absent.
 std::map<std::string, std::vector<Reference>> reference_constants(const ReferenceForm& form, const LawFacts& facts);
 
-// Whether no number of the scalar's type is nearer; magnitudes that the law takes for zero must be zero.
+// Whether no number of the scalar's type is nearer; of two between which the exact value is halfway, but for what
+// rounding in 50 digits makes, either will do. Magnitudes that the law takes for zero must be zero.
 bool is_correctly_rounded(double value, const Reference& exact, ScalarType scalar);
 
 }  // namespace dashpot::compiler

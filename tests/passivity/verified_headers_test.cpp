@@ -71,8 +71,9 @@ std::string with_elements(const std::string& elements) {
 }
 
 // If this failed, sound headers would be refused: yield forces summed in another order, a brake that has all the
-// dampers of a cut, a relaxation that is over within a sample beside a slow one, a motor behind a lag that has nothing
-// to make, or whose bound is a sum sample by sample, slips that are no tree in one of several ports.
+// dampers of a cut, a relaxation that is over within a sample beside a slow one, two springs whose sum is halfway
+// between two numbers, a motor behind a lag that has nothing to make, or whose bound is a sum sample by sample, slips
+// that are no tree in one of several ports.
 TEST(VerifiedHeaders, OfLawsThatWereRefused) {
   const std::string networks[] = {
       R"("network": {"series": [{"spring": 100}, {"parallel": [{"slip": 0.1}, {"slip": 0.2}, {"slip": 0.3}]}]})",
@@ -85,6 +86,8 @@ TEST(VerifiedHeaders, OfLawsThatWereRefused) {
          {"slip": 1, "nodes": ["n1", "tool"]}, {"spring": 1, "nodes": ["ground", "n1"]}, {"spring": 1, "nodes": ["n1", "n0"]}])",
       R"("network": {"series": [{"parallel": [{"damper": 1}, {"spring": 1}]},
          {"series": [{"slip": 1}, {"spring": 1287}, {"damper": 0.02}]}]})",
+      R"("elements": [{"spring": 189.7903, "nodes": ["tool", "n"]}, {"spring": 407.4717, "nodes": ["tool", "n"]},
+         {"slip": 0.35, "nodes": ["n", "ground"]}, {"damper": 3.6442, "nodes": ["n", "ground"]}])",
       R"("ports": [{"name": "left", "elements": [{"spring": 115, "nodes": ["tool", "ground"]}]},
          {"name": "right", "elements": [{"damper": 100, "nodes": ["n3", "n1"]},
          {"spring": 0.1, "nodes": ["n3", "ground"]},

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "discretise/rounding.hpp"
+#include "law/walk.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -205,46 +206,38 @@ void Magnitudes::run(const std::vector<Statement>& program) {
 void Magnitudes::solve(const Statement& statement) {
   if (!is_possible_) return;
   const Amount change = of(statement.value, 0);
-  if (const auto* tree = std::get_if<SolveTree>(&statement.step)) {
-    const Coupling& coupling = law_.couplings[tree->coupling];
-    solve(coupling, statement.target, change, coupling.is_pushed(), coupling.elongation, coupling.surface_change);
-  } else if (const auto* graph = std::get_if<SolveNetwork>(&statement.step)) {
-    const SlipNetwork& network = law_.networks[graph->network];
-    const bool pushed = is_pushed(network);
-    solve(network, statement.target, change, pushed, network.moved, pushed ? network.moved.back() : no_variable);
-  }
+  visit_solved(law_, statement, [&](const auto& solved) { solve(solved, statement.target, change); });
 }
 
-template <class Coupled>
-const SlipAnswer& Magnitudes::answer_of(const Coupled& coupled, bool is_free) {
-  const auto key = std::pair(&coupled.name, is_free);
+template <class Solved>
+const SlipAnswer& Magnitudes::answer_of(const Solved& solved, bool is_free) {
+  const auto key = std::pair(&solved.name, is_free);
   const auto found = answers_.find(key);
-  return found != answers_.end() ? found->second : answers_.emplace(key, slip_answer(coupled, is_free)).first->second;
+  return found != answers_.end() ? found->second : answers_.emplace(key, slip_answer(solved, is_free)).first->second;
 }
 
-template <class Coupled>
-void Magnitudes::solve(const Coupled& coupled, VariableId force, const Amount& change, bool is_pushed,
-                       const std::vector<VariableId>& moved, VariableId surface) {
-  const bool is_free = is_pushed && cases_.choose(2) == 1;
-  const SlipAnswer& answer = answer_of(coupled, is_free);
+template <class Solved>
+void Magnitudes::solve(const Solved& solved, VariableId force, const Amount& change) {
+  const bool is_free = solved.is_pushed() && cases_.choose(2) == 1;
+  const SlipAnswer& answer = answer_of(solved, is_free);
   std::vector<Amount> held, slips;
-  for (const VariableId id : coupled.held) held.push_back(id == no_variable ? exactly(0) : values_[first(id)]);
+  for (const VariableId id : solved.held) held.push_back(id == no_variable ? exactly(0) : values_[first(id)]);
   for (const double yield : answer.yields) {
     slip_forces_.push_back(yield);
     slips.push_back(symbol(bounds_.low.size() + slip_forces_.size() - 1));
   }
   const auto assign = [&](VariableId id, const SlipAnswerRow& row) {
-    if (id != no_variable) values_[first(id)] = tightened(combined(row, change, held, slips, coupled.operations()));
+    if (id != no_variable) values_[first(id)] = tightened(combined(row, change, held, slips, solved.operations()));
   };
-  if (is_pushed) {
-    const SlipAnswerRow free = answer_of(coupled, true).surface;
-    know(sum(combined(free, change, held, slips, coupled.operations()), change, -1), is_free ? 1 : -1);
+  if (solved.is_pushed()) {
+    const SlipAnswerRow free = answer_of(solved, true).surface;
+    know(sum(combined(free, change, held, slips, solved.operations()), change, -1), is_free ? 1 : -1);
   }
-  for (std::size_t i = 0; i < moved.size(); ++i) assign(moved[i], answer.moved[i]);
-  assign(surface, answer.surface);
-  if (is_pushed && !is_free) values_[first(surface)] = change;
+  for (std::size_t i = 0; i < solved.moved.size(); ++i) assign(solved.moved[i], answer.moved[i]);
+  assign(solved.surface, answer.surface);
+  if (solved.is_pushed() && !is_free) values_[first(solved.surface)] = change;
   assign(force, answer.force);
-  for (const VariableId sign : coupled.sign)
+  for (const VariableId sign : solved.sign)
     if (sign != no_variable) values_[first(sign)] = sized(1);
 }
 

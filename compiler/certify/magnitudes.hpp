@@ -101,11 +101,10 @@ class Magnitudes {
   bool is_map(const Statement& s) const { return law_.mapped != no_variable && s.target == law_.mapped; }
   void run(const std::vector<Statement>& program);
   void solve(const Statement& statement);
-  template <class Coupled>
-  const SlipAnswer& answer_of(const Coupled& coupled, bool is_free);
-  template <class Coupled>
-  void solve(const Coupled& coupled, VariableId force, const Amount& change, bool is_pushed,
-             const std::vector<VariableId>& moved, VariableId surface);
+  template <class Solved>
+  const SlipAnswer& answer_of(const Solved& solved, bool is_free);
+  template <class Solved>
+  void solve(const Solved& solved, VariableId force, const Amount& change);
   void know(const Amount& amount, double sign);
   Amount tightened(Amount value) const;
   Amount combined(const SlipAnswerRow& row, const Amount& change, const std::vector<Amount>& held,
@@ -150,7 +149,7 @@ class Magnitudes {
   std::map<std::size_t, std::size_t> errors_;  // of forces that carry one along
   std::map<std::size_t, std::size_t> added_;   // what is added to them in a step
   Anchors anchors_;
-  std::map<std::pair<const std::string*, bool>, SlipAnswer> answers_;  // by the name of what is coupled
+  std::map<std::pair<const std::string*, bool>, SlipAnswer> answers_;  // by the name of what is solved together
   // Of the case at hand:
   std::vector<Amount> values_;
   std::vector<double> slip_forces_;                          // at most, symbols after those of all variables

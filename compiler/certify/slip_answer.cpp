@@ -149,12 +149,10 @@ SlipAnswer slip_answer(const Coupling& coupling, bool is_free) {
   return answer;
 }
 
-// The tool pushes the last inner end.
-bool is_pushed(const SlipNetwork& network) { return network.links.back().lowest == 0; }
-
+// The tool pushes the last inner end of one that is pushed.
 SlipAnswer slip_answer(const SlipNetwork& network, bool is_free) {
   JoinedEnds ends;
-  const int count = network.node_count, inner = is_pushed(network) && !is_free ? count - 1 : count;
+  const int count = network.node_count, inner = network.is_pushed() && !is_free ? count - 1 : count;
   for (int i = 0; i < inner; ++i) ends.add_end();
   const auto end_of = [&](int i) { return i < inner ? i : i <= count ? JoinedEnds::tool : JoinedEnds::ground; };
   const auto at = [](int i) { return static_cast<std::size_t>(i); };

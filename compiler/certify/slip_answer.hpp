@@ -26,6 +26,4 @@ struct SlipAnswer {
 SlipAnswer slip_answer(const Coupling& coupling, bool is_free);
 SlipAnswer slip_answer(const SlipNetwork& network, bool is_free);
 
-bool is_pushed(const SlipNetwork& network);
-
 }  // namespace dashpot::compiler

@@ -76,13 +76,15 @@ void CoupledSlips::declare() {
 
 ExpressionId CoupledSlips::write_output(VariableId change, VariableId surface_change) {
   UpdateLaw& law = writer_.law();
-  Coupling coupling{name_, table_.nodes, {}, {}, {}, {}};
+  Coupling coupling;
+  coupling.name = name_;
+  coupling.nodes = table_.nodes;
   for (const Block& block : blocks_) coupling.held.push_back(write_held(block));
-  for (const Block& block : blocks_) coupling.elongation.push_back(block.elongation);
+  for (const Block& block : blocks_) coupling.moved.push_back(block.elongation);
   for (const NormalTree* slip : table_.slips) coupling.slips.push_back(slip->elements);
   for (const Block& block : blocks_) coupling.blocks.push_back(block.part->elements);
   coupling.sign = signs_;
-  coupling.surface_change = surface_change;
+  coupling.surface = surface_change;
   const VariableId force =
       writer_.scalar(joined(name_, "force"), writer_.force(), "the component's force", Role::local);
   writer_.assign(law.output, force, writer_.read(change), "f and every block's δ, by curves, signs and numbers",

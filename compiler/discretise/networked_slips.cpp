@@ -151,7 +151,7 @@ ExpressionId NetworkedSlips::write_output(VariableId change) {
 ExpressionId NetworkedSlips::write_push(VariableId change, VariableId surface_change, const BesideSlips& beside) {
   const std::size_t surface = form_.terminals.size() - 1;
   add_stiffness(surface, form_.terminals.size(), beside.stiffness);
-  change_ = step_.moved[surface] = surface_change;
+  change_ = step_.surface = step_.moved[surface] = surface_change;
   for (std::size_t i = 0; i < form_.terminals.size(); ++i)
     step_.held.push_back(write_held(i, i == surface ? beside.held : no_variable));
   step_.held.push_back(no_variable);

@@ -210,10 +210,7 @@ class C99Printer {
   void print_straight(const Statement& statement, Lines& lines) {
     const Variable& target = law_.variables[statement.target];
     if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
-    if (const auto* tree = std::get_if<SolveTree>(&statement.step))
-      return print_step(statement, law_.couplings[tree->coupling], lines);
-    if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
-      return print_step(statement, law_.networks[network->network], lines);
+    if (visit_solved(law_, statement, [&](const auto& slips) { print_step(statement, slips, lines); })) return;
     for (place_ = 0; place_ < target.size; ++place_)
       append(lines, declaration(target) + name(statement.target, place_) + " = " + expression(statement.value) + ";");
   }
@@ -232,8 +229,7 @@ class C99Printer {
     append_all(lines, c99_part("numbers.h", words));
     if (!law_.couplings.empty()) append_all(lines, c99_part("slip_tree.h", words));
     if (!law_.networks.empty()) append_all(lines, c99_part("slip_network.h", words));
-    for (const Coupling& coupling : law_.couplings) append_tables_if(!is_tuned(coupling), coupling, lines);
-    for (const SlipNetwork& network : law_.networks) append_tables_if(!is_tuned(network), network, lines);
+    each_solved(law_, [&](const auto& slips) { append_tables_if(!is_tuned(slips), slips, lines); });
     if (law_.tunable) append_ranges(lines);
     return lines;
   }
@@ -267,23 +263,31 @@ class C99Printer {
     if (!is_tuned(slips)) lines.push_back("");
   }
 
-  std::string held_forces(const std::vector<VariableId>& held) const {
-    std::string text;
-    for (VariableId id : held) text += (text.empty() ? "" : ", ") + (id == no_variable ? number(0) : name(id, 0));
-    return text;
+  // The tables that parameters change, and the forces held.
+  template <class Slips>
+  void begin_step(const Slips& slips, Lines& lines) const {
+    append_tables_if(is_tuned(slips), slips, lines);
+    append(lines, fmt::format("const {} {}_held[{}] = {{{}}};", scalar(), slips.name, slips.held.size(),
+                              held_forces(slips, number(0), [&](VariableId id) { return name(id, 0); })));
+  }
+
+  void take_results(const SolvedSlips& slips, const char* moved, Lines& lines) const {
+    each_result_text(
+        slips, moved, [&](const std::string& sign) { return fmt::format("({}){}", scalar(), sign); },
+        [&](VariableId target, const std::string& value) {
+          lines.push_back(declaration(law_.variables[target]) + name(target, 0) + " = " + value + ";");
+        });
   }
 
   void print_step(const Statement& statement, const Coupling& coupling, Lines& lines) {
-    append_tables_if(is_tuned(coupling), coupling, lines);
+    begin_step(coupling, lines);
     const std::string& own = coupling.name;
-    append(lines, fmt::format("const {} {}_held[{}] = {{{}}};", scalar(), own, coupling.held.size(),
-                              held_forces(coupling.held)));
-    lines.push_back(fmt::format("{} {}_elongation[{}] = {{0}};", scalar(), own, coupling.elongation.size()));
-    lines.push_back(fmt::format("int {}_sign[{}] = {{0}};", own, coupling.slips.size()));
+    lines.push_back(fmt::format("{} {}_elongation[{}] = {{0}};", scalar(), own, coupling.moved.size()));
+    lines.push_back(fmt::format("int {}_sign[{}] = {{0}};", own, coupling.slip_count()));
     lines.push_back(
         fmt::format("{}_part_state {}_parts[{}] = {{{{0, 0, 0, 0, 0, 0, 0, 0}}}};", name_, own, coupling.nodes.size()));
     lines.push_back(fmt::format("{0}_corner {1}_corners[{2}] = {{{{0, 0, 0}}}}, {1}_merged[{3}] = {{{{0, 0, 0}}}};",
-                                name_, own, coupling.corners(), slip_curve_room(int(coupling.slips.size()))));
+                                name_, own, coupling.corners(), slip_curve_room(coupling.slip_count())));
     lines.push_back(fmt::format("const {0}_tree {1}_tree = {{{0}_{1}, {2}, {1}_parts, {1}_corners, {1}_merged}};",
                                 name_, own, coupling.nodes.size()));
     if (coupling.is_pushed()) lines.push_back(fmt::format("{} {}_change = 0;", scalar(), own));
@@ -291,20 +295,14 @@ class C99Printer {
                       fmt::format(" = {0}_tree_{1}(&{2}_tree, {3}, {2}_held, {2}_elongation, {2}_sign{4});", name_,
                                   coupling.is_pushed() ? "push" : "step", own, expression(statement.value),
                                   coupling.is_pushed() ? fmt::format(", &{}_change", own) : ""));
-    if (coupling.is_pushed()) assign(coupling.surface_change, own + "_change", lines);
-    for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
-      assign(coupling.elongation[i], fmt::format("{}_elongation[{}]", own, i), lines);
-    for (std::size_t i = 0; i < coupling.sign.size(); ++i)
-      assign(coupling.sign[i], fmt::format("({}){}_sign[{}]", scalar(), own, i), lines);
+    take_results(coupling, "elongation", lines);
   }
 
   void print_step(const Statement& statement, const SlipNetwork& network, Lines& lines) {
-    append_tables_if(is_tuned(network), network, lines);
+    begin_step(network, lines);
     const std::string& own = network.name;
     std::string sign;
     for (VariableId id : network.last_sign) sign += (sign.empty() ? "(int)" : ", (int)") + name(id, 0);
-    append(lines, fmt::format("const {} {}_held[{}] = {{{}}};", scalar(), own, network.held.size(),
-                              held_forces(network.held)));
     lines.push_back(fmt::format("{0} {1}_moved[{2}] = {{0}}, {1}_joined[{3}] = {{0}}, {1}_numbers[{4}] = {{0}};",
                                 scalar(), own, network.node_count, network.node_count * network.node_count,
                                 8 * network.node_count));
@@ -328,15 +326,7 @@ class C99Printer {
       lines.push_back(fmt::format("{}.{} = {};", own, member, value));
     append(lines, declaration(law_.variables[statement.target]) + name(statement.target, 0) +
                       fmt::format(" = {0}_network_step(&{1}, {1}_numbers);", name_, own));
-    for (std::size_t i = 0; i < network.moved.size(); ++i)
-      assign(network.moved[i], fmt::format("{}_moved[{}]", own, i), lines);
-    for (std::size_t i = 0; i < network.sign.size(); ++i)
-      assign(network.sign[i], fmt::format("({}){}_sign[{}]", scalar(), own, i), lines);
-  }
-
-  void assign(VariableId target, const std::string& value, Lines& lines) const {
-    if (target == no_variable) return;
-    lines.push_back(declaration(law_.variables[target]) + name(target, 0) + " = " + value + ";");
+    take_results(network, "moved", lines);
   }
 
   // Elementwise statements of vectors of one size, with the partial sums of those that are added up later.

@@ -8,6 +8,7 @@
 #include "emit/cpp_program.hpp"
 #include "emit/cpp_statements.hpp"
 #include "emit/slip_tables.hpp"
+#include "law/walk.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -35,10 +36,9 @@ TableWords words_for_local_tables(const UpdateLaw& law, const SolverWords& words
 }
 
 void append_all_tables(const UpdateLaw& law, const TableWords& words, bool tuned, std::vector<std::string>& lines) {
-  for (const Coupling& coupling : law.couplings)
-    if (is_tuned(coupling) == tuned) append_tables(coupling, words, lines);
-  for (const SlipNetwork& network : law.networks)
-    if (is_tuned(network) == tuned) append_tables(network, words, lines);
+  each_solved(law, [&](const auto& slips) {
+    if (is_tuned(slips) == tuned) append_tables(slips, words, lines);
+  });
 }
 
 // What the solver's table is called where it is used.
@@ -47,22 +47,28 @@ const char* table_suffix(const Slips& slips, const SolverWords& words) {
   return is_tuned(slips) && !words.makes_tables ? "_" : "";
 }
 
-std::string held_forces(const std::vector<VariableId>& held, const SolverWords& words) {
-  std::string forces;
-  for (VariableId id : held) forces += (forces.empty() ? "" : ", ") + (id == no_variable ? "0" : words.read(id));
-  return forces;
+template <class Slips>
+void begin_step(const UpdateLaw& law, const Slips& slips, const SolverWords& words, std::vector<std::string>& lines) {
+  if (is_tuned(slips) && words.makes_tables) append_tables(slips, words_for_local_tables(law, words), lines);
+  append(lines, fmt::format("const scalar {}_held[{}] = {{{}}};", slips.name, slips.held.size(),
+                            held_forces(slips, "0", words.read)));
+}
+
+void take_results(const SolvedSlips& slips, const char* moved, const SolverWords& words,
+                  std::vector<std::string>& lines) {
+  each_result_text(
+      slips, moved, [](const std::string& sign) { return fmt::format("static_cast<scalar>({})", sign); },
+      [&](VariableId target, const std::string& value) { lines.push_back(words.assignment(target, value)); });
 }
 
 void append_step(const UpdateLaw& law, VariableId target, const Coupling& coupling, const SolverWords& words,
                  std::vector<std::string>& lines) {
   const std::string& name = coupling.name;
-  if (is_tuned(coupling) && words.makes_tables) append_tables(coupling, words_for_local_tables(law, words), lines);
-  append(lines, fmt::format("const scalar {}_held[{}] = {{{}}};", name, coupling.held.size(),
-                            held_forces(coupling.held, words)));
-  lines.push_back(fmt::format("scalar {}_elongation[{}] = {{}};", name, coupling.elongation.size()));
-  lines.push_back(fmt::format("int {}_sign[{}] = {{}};", name, coupling.slips.size()));
+  begin_step(law, coupling, words, lines);
+  lines.push_back(fmt::format("scalar {}_elongation[{}] = {{}};", name, coupling.moved.size()));
+  lines.push_back(fmt::format("int {}_sign[{}] = {{}};", name, coupling.slip_count()));
   lines.push_back(fmt::format("dashpot::slip_tree_scratch<scalar, {}, {}, {}> {}_scratch;", coupling.nodes.size(),
-                              coupling.slips.size(), coupling.corners(), name));
+                              coupling.slip_count(), coupling.corners(), name));
   if (coupling.is_pushed()) lines.push_back(fmt::format("scalar {}_change = 0;", name));
   append(
       lines,
@@ -71,24 +77,16 @@ void append_step(const UpdateLaw& law, VariableId target, const Coupling& coupli
           fmt::format("dashpot::slip_tree<scalar>({0}{1}, {0}_scratch).{2}({3}, {0}_held, {0}_elongation, {0}_sign{4})",
                       name, table_suffix(coupling, words), coupling.is_pushed() ? "push" : "step", words.given,
                       coupling.is_pushed() ? fmt::format(", {}_change", name) : "")));
-  if (coupling.is_pushed()) lines.push_back(words.assignment(coupling.surface_change, name + "_change"));
-  for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
-    if (coupling.elongation[i] != no_variable)
-      lines.push_back(words.assignment(coupling.elongation[i], fmt::format("{}_elongation[{}]", name, i)));
-  for (std::size_t i = 0; i < coupling.sign.size(); ++i)
-    if (coupling.sign[i] != no_variable)
-      lines.push_back(words.assignment(coupling.sign[i], fmt::format("static_cast<scalar>({}_sign[{}])", name, i)));
+  take_results(coupling, "elongation", words, lines);
 }
 
 void append_step(const UpdateLaw& law, VariableId target, const SlipNetwork& network, const SolverWords& words,
                  std::vector<std::string>& lines) {
   const std::string& name = network.name;
-  if (is_tuned(network) && words.makes_tables) append_tables(network, words_for_local_tables(law, words), lines);
+  begin_step(law, network, words, lines);
   std::string sign;
   for (VariableId id : network.last_sign)
     sign += (sign.empty() ? "" : ", ") + fmt::format("static_cast<int>({})", words.read(id));
-  append(lines, fmt::format("const scalar {}_held[{}] = {{{}}};", name, network.held.size(),
-                            held_forces(network.held, words)));
   lines.push_back(fmt::format("scalar {}_moved[{}] = {{}};", name, network.node_count));
   append(lines, fmt::format("int {}_sign[{}] = {{{}}};", name, network.slip_count(), sign));
   lines.push_back(fmt::format("dashpot::slip_network_scratch<scalar, {}> {}_scratch;", network.node_count, name));
@@ -100,11 +98,7 @@ void append_step(const UpdateLaw& law, VariableId target, const SlipNetwork& net
                      through == no_variable ? literal(law, network.through) : words.read(through), network.node_count));
   append(lines,
          words.assignment(target, fmt::format("{0}_step.step({1}, {0}_held, {0}_moved, {0}_sign)", name, words.given)));
-  for (std::size_t i = 0; i < network.moved.size(); ++i)
-    if (network.moved[i] != no_variable)
-      lines.push_back(words.assignment(network.moved[i], fmt::format("{}_moved[{}]", name, i)));
-  for (std::size_t i = 0; i < network.sign.size(); ++i)
-    lines.push_back(words.assignment(network.sign[i], fmt::format("static_cast<scalar>({}_sign[{}])", name, i)));
+  take_results(network, "moved", words, lines);
 }
 
 }  // namespace
@@ -149,10 +143,7 @@ void append_tuning(const UpdateLaw& law, std::vector<std::string>& lines) {
 
 void append_step(const UpdateLaw& law, const Statement& statement, const SolverWords& words,
                  std::vector<std::string>& lines) {
-  if (const auto* tree = std::get_if<SolveTree>(&statement.step))
-    append_step(law, statement.target, law.couplings[tree->coupling], words, lines);
-  if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
-    append_step(law, statement.target, law.networks[network->network], words, lines);
+  visit_solved(law, statement, [&](const auto& slips) { append_step(law, statement.target, slips, words, lines); });
 }
 
 }  // namespace dashpot::compiler

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "emit/cpp_lines.hpp"
+#include "law/walk.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -23,6 +24,25 @@ const char* part_name(slip_part kind) {
 
 bool is_tuned(const Coupling& coupling) { return !coupling.tuned.empty(); }
 bool is_tuned(const SlipNetwork& network) { return network.tuned.has_value(); }
+
+std::string held_forces(const SolvedSlips& slips, const std::string& zero,
+                        const std::function<std::string(VariableId)>& read) {
+  std::string forces;
+  for (VariableId id : slips.held) forces += (forces.empty() ? "" : ", ") + (id == no_variable ? zero : read(id));
+  return forces;
+}
+
+void each_result_text(const SolvedSlips& slips, const char* moved,
+                      const std::function<std::string(const std::string& sign)>& as_scalar,
+                      const std::function<void(VariableId target, const std::string& value)>& visit) {
+  each_result(slips, [&](VariableId target, SlipResult what, std::size_t i) {
+    switch (what) {
+      case SlipResult::surface: return visit(target, slips.name + "_change");
+      case SlipResult::moved: return visit(target, fmt::format("{}_{}[{}]", slips.name, moved, i));
+      case SlipResult::sign: return visit(target, as_scalar(fmt::format("{}_sign[{}]", slips.name, i)));
+    }
+  });
+}
 
 void append_tables(const Coupling& coupling, const TableWords& words, std::vector<std::string>& lines) {
   lines.push_back("// kind, children, slips, place, first corner, stiffness, compliance, yield force");

@@ -21,6 +21,15 @@ struct TableWords {
 bool is_tuned(const Coupling& coupling);
 bool is_tuned(const SlipNetwork& network);
 
+// What stands in the solver's list of held forces; `zero` where none is held.
+std::string held_forces(const SolvedSlips& slips, const std::string& zero,
+                        const std::function<std::string(VariableId)>& read);
+
+// What a step has found, as it is read from the solver's lists, of which `moved` is the name of one.
+void each_result_text(const SolvedSlips& slips, const char* moved,
+                      const std::function<std::string(const std::string& sign)>& as_scalar,
+                      const std::function<void(VariableId target, const std::string& value)>& visit);
+
 void append_tables(const Coupling& coupling, const TableWords& words, std::vector<std::string>& lines);
 void append_tables(const SlipNetwork& network, const TableWords& words, std::vector<std::string>& lines);
 

@@ -16,16 +16,6 @@ void count(const UpdateLaw& law, const Expression& expression, std::size_t place
   cost.guards += places * facts.guards;
 }
 
-struct SolverOperations {
-  const UpdateLaw& law;
-  Cost& cost;
-  void operator()(const Assign&) const {}
-  void operator()(const SolveTree& step) const { add(cost.coupled, law.couplings[step.coupling].operations()); }
-  void operator()(const SolveNetwork& step) const { add(cost.coupled, law.networks[step.network].operations()); }
-  void operator()(const Call&) const { throw std::logic_error("cost: a call that is not spelled out"); }
-  static void add(std::size_t& sum, int operations) { sum += static_cast<std::size_t>(operations); }
-};
-
 }  // namespace
 
 Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
@@ -33,7 +23,9 @@ Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
   for (const Statement& statement : program) {
     const std::size_t places = law.variables[statement.target].size;
     each_expression(law, statement.value, [&](const Expression& e) { count(law, e, places, cost); });
-    std::visit(SolverOperations{law, cost}, statement.step);
+    const bool is_solved = visit_solved(
+        law, statement, [&](const auto& slips) { cost.coupled += static_cast<std::size_t>(slips.operations()); });
+    if (!is_solved && !statement.assigns()) throw std::logic_error("cost: a call that is not spelled out");
   }
   if (&program == &law.update)
     for (const GuardInTurn& guard : law.guards) cost.guards += guard.places;

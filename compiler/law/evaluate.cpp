@@ -151,9 +151,9 @@ typename Evaluation<Scalar>::Solver Evaluation<Scalar>::solver_of(const Coupling
                             static_cast<Scalar>(node.yield)});
   solver.parts.resize(coupling.nodes.size());
   solver.corners.resize(static_cast<std::size_t>(coupling.corners()));
-  solver.merged.resize(static_cast<std::size_t>(slip_curve_room(static_cast<int>(coupling.slips.size()))));
+  solver.merged.resize(static_cast<std::size_t>(slip_curve_room(coupling.slip_count())));
   solver.held.resize(coupling.held.size());
-  solver.elongation.resize(coupling.elongation.size());
+  solver.moved.resize(coupling.moved.size());
   solver.sign.resize(coupling.slips.size());
   return solver;
 }
@@ -328,9 +328,25 @@ void Evaluation<Scalar>::take(const Call&, const Statement&, Scalar) {
 }
 
 template <class Scalar>
+void Evaluation<Scalar>::give_held(const SolvedSlips& solved, Lists& lists) const {
+  for (std::size_t i = 0; i < solved.held.size(); ++i)
+    lists.held[i] = solved.held[i] == no_variable ? Scalar(0) : at(solved.held[i])[0];
+}
+
+template <class Scalar>
+void Evaluation<Scalar>::take_results(const SolvedSlips& solved, const Lists& lists) {
+  each_result(solved, [&](VariableId id, SlipResult what, std::size_t i) {
+    switch (what) {
+      case SlipResult::surface: at(id)[0] = lists.surface; break;
+      case SlipResult::moved: at(id)[0] = lists.moved[i]; break;
+      case SlipResult::sign: at(id)[0] = static_cast<Scalar>(lists.sign[i]); break;
+    }
+  });
+}
+
+template <class Scalar>
 void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, VariableId target, Scalar change) {
-  for (std::size_t i = 0; i < coupling.held.size(); ++i)
-    solver.held[i] = coupling.held[i] == no_variable ? Scalar(0) : at(coupling.held[i])[0];
+  give_held(coupling, solver);
   const auto tune = [&](VariableId tuned, Scalar& number) {
     if (tuned != no_variable) number = at(tuned)[0];
   };
@@ -341,29 +357,22 @@ void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, Variabl
   }
   slip_tree<Scalar> tree(solver.nodes.data(), coupling.node_count(), solver.parts.data(), solver.corners.data(),
                          solver.merged.data());
-  if (coupling.is_pushed())
-    at(target)[0] = tree.push(change, solver.held.data(), solver.elongation.data(), solver.sign.data(),
-                              at(coupling.surface_change)[0]);
-  else at(target)[0] = tree.step(change, solver.held.data(), solver.elongation.data(), solver.sign.data());
-  for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
-    if (coupling.elongation[i] != no_variable) at(coupling.elongation[i])[0] = solver.elongation[i];
-  for (std::size_t i = 0; i < coupling.sign.size(); ++i)
-    if (coupling.sign[i] != no_variable) at(coupling.sign[i])[0] = static_cast<Scalar>(solver.sign[i]);
+  at(target)[0] = coupling.is_pushed()
+                      ? tree.push(change, solver.held.data(), solver.moved.data(), solver.sign.data(), solver.surface)
+                      : tree.step(change, solver.held.data(), solver.moved.data(), solver.sign.data());
+  take_results(coupling, solver);
 }
 
 template <class Scalar>
 void Evaluation<Scalar>::solve(const SlipNetwork& network, NetworkSolver& solver, VariableId target, Scalar change) {
-  for (std::size_t i = 0; i < network.held.size(); ++i)
-    solver.held[i] = network.held[i] == no_variable ? Scalar(0) : at(network.held[i])[0];
+  give_held(network, solver);
   for (std::size_t i = 0; i < network.sign.size(); ++i) solver.sign[i] = static_cast<int>(at(network.last_sign[i])[0]);
   const Scalar through = tune(network, solver);
   slip_network<Scalar> step(solver.links.data(), network.slip_count(),
                             {solver.between.data(), solver.to_tool.data(), solver.to_ground.data(), through},
                             network.node_count, {solver.group.data(), solver.room.data(), solver.numbers.data()});
   at(target)[0] = step.step(change, solver.held.data(), solver.moved.data(), solver.sign.data());
-  for (std::size_t i = 0; i < network.moved.size(); ++i)
-    if (network.moved[i] != no_variable) at(network.moved[i])[0] = solver.moved[i];
-  for (std::size_t i = 0; i < network.sign.size(); ++i) at(network.sign[i])[0] = static_cast<Scalar>(solver.sign[i]);
+  take_results(network, solver);
 }
 
 // The numbers that parameters change. Returns what joins tool and ground.

@@ -40,20 +40,25 @@ class Evaluation {
   unsigned set(const std::vector<Scalar>& values);
 
  private:
+  // What a step of slips is given and finds.
+  struct Lists {
+    std::vector<Scalar> held, moved;
+    std::vector<int> sign;
+    Scalar surface = 0;
+  };
+
   // The tables of coupled slips and the room for their steps.
-  struct Solver {
+  struct Solver : Lists {
     std::vector<slip_node<Scalar>> nodes;
     std::vector<slip_part_state<Scalar>> parts;
     std::vector<slip_corner<Scalar>> corners, merged;
-    std::vector<Scalar> held, elongation;
-    std::vector<int> sign;
   };
 
   // The same of slips outside a tree.
-  struct NetworkSolver {
+  struct NetworkSolver : Lists {
     std::vector<slip_link<Scalar>> links;
-    std::vector<Scalar> between, to_tool, to_ground, held, moved;
-    std::vector<int> sign, group;
+    std::vector<Scalar> between, to_tool, to_ground;
+    std::vector<int> group;
     std::vector<Scalar> room, numbers;
   };
 
@@ -90,6 +95,8 @@ class Evaluation {
   void take_turn(const GuardInTurn& guard, std::size_t& turn);
   void solve(const Coupling& coupling, Solver& solver, VariableId target, Scalar change);
   void solve(const SlipNetwork& network, NetworkSolver& solver, VariableId target, Scalar change);
+  void give_held(const SolvedSlips& solved, Lists& lists) const;
+  void take_results(const SolvedSlips& solved, const Lists& lists);
   Scalar tune(const SlipNetwork& network, NetworkSolver& solver) const;
   void start();  // every state that starts somewhere, where the inputs are
   Scalar damping(VariableId changing) const;

@@ -14,11 +14,9 @@ std::string value_text(const UpdateLaw& law, const Statement& statement) {
   spelling.coefficient = [&](CoefficientId id) { return law.coefficients[id].name; };
   spelling.sum = [&](VariableId id) { return "sum(" + law.variables[id].name + ")"; };
   const std::string value = expression_text(law, statement.value, spelling);
-  if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
-    return fmt::format("{}({})", law.networks[network->network].name, value);
-  if (const auto* tree = std::get_if<SolveTree>(&statement.step))
-    return fmt::format("{}({})", law.couplings[tree->coupling].name, value);
-  return value;
+  std::string solver;
+  visit_solved(law, statement, [&](const SolvedSlips& solved) { solver = solved.name; });
+  return solver.empty() ? value : fmt::format("{}({})", solver, value);
 }
 
 std::string name_of_variable(const UpdateLaw& law, VariableId id) {
@@ -31,9 +29,8 @@ std::string coupling_text(const UpdateLaw& law, const Coupling& coupling) {
   for (const slip_node<double>& node : coupling.nodes) {
     const auto place = static_cast<std::size_t>(node.place);
     if (node.kind == slip_part::block)
-      text +=
-          fmt::format("    block g {}, from {} to {}\n", node.stiffness, name_of_variable(law, coupling.held[place]),
-                      name_of_variable(law, coupling.elongation[place]));
+      text += fmt::format("    block g {}, from {} to {}\n", node.stiffness,
+                          name_of_variable(law, coupling.held[place]), name_of_variable(law, coupling.moved[place]));
     else if (node.kind == slip_part::slip) text += fmt::format("    slip {}\n", node.yield);
     else
       text += fmt::format("    {} of parts {} to {}\n", node.kind == slip_part::series ? "series" : "parallel",

@@ -169,20 +169,28 @@ struct TunedNode {
   VariableId stiffness = no_variable, compliance = no_variable, yield = no_variable;
 };
 
-// Slips that meet at inner nodes, with the blocks between them: one step is dashpot::slip_tree (theory, section 5).
-struct Coupling {
-  std::string name;                         // of the emitted table
-  std::vector<slip_node<double>> nodes;     // numbers already rounded to the law's scalar type
-  std::vector<VariableId> held;             // π of each block [N]; no_variable where it is 0
-  std::vector<VariableId> elongation;       // local, δ of each block [m]; no_variable where nothing follows it
-  std::vector<ElementList> slips;           // of each slip
-  std::vector<VariableId> sign;             // local, of each slip: −1, 0 or 1; no_variable where nothing follows it
-  VariableId surface_change = no_variable;  // local, of a tree that is pushed and not pulled: Δs [m]
-  std::vector<TunedNode> tuned = {};        // one a node; none where no parameter changes them
-  std::vector<ElementList> blocks = {};     // of each block; none where parameters change the nodes
+// Slips that are solved together: what a step reads beside the change, and the locals that it assigns beside the force,
+// no_variable where nothing follows them.
+struct SolvedSlips {
+  std::string name;                  // of the emitted tables
+  std::vector<VariableId> held;      // forces if nothing moved [N]; no_variable where they are 0
+  std::vector<VariableId> moved;     // how far parts go [m]
+  std::vector<VariableId> sign;      // to which side each slip gives way: −1, 0 or 1
+  VariableId surface = no_variable;  // Δs, where a tool pushes what is there and cannot pull it [m]
 
-  bool is_pushed() const { return surface_change != no_variable; }
+  bool is_pushed() const { return surface != no_variable; }
+};
+
+// Slips that meet at inner nodes, with the blocks between them: one step is dashpot::slip_tree (theory, section 5).
+// `held` is π of each block, `moved` its δ.
+struct Coupling : SolvedSlips {
+  std::vector<slip_node<double>> nodes;  // numbers already rounded to the law's scalar type
+  std::vector<ElementList> slips;        // of each slip
+  std::vector<TunedNode> tuned;          // one a node; none where no parameter changes them
+  std::vector<ElementList> blocks;       // of each block; none where parameters change the nodes
+
   int node_count() const { return static_cast<int>(nodes.size()); }
+  int slip_count() const { return static_cast<int>(slips.size()); }
   int corners() const { return slip_tree_corners(nodes.data(), node_count()); }
   int operations() const {
     return is_pushed() ? slip_tree_push_operations(nodes.data(), node_count())
@@ -200,20 +208,17 @@ struct TunedNetwork {
 // How the names of its emitted tables end.
 inline constexpr const char* tables_of_slip_network[] = {"_links", "_between", "_to_tool", "_to_ground"};
 
-// Slips that meet where a network is no tree: one step is dashpot::slip_network. Ends are numbered as there.
-struct SlipNetwork {
-  std::string name;  // of the emitted tables
+// Slips that meet where a network is no tree: one step is dashpot::slip_network. Ends are numbered as there. `held` is
+// of every inner end, then of the tool, `moved` of every inner end, of which a surface is the last.
+struct SlipNetwork : SolvedSlips {
   int node_count = 0;
   std::vector<slip_link<double>> links;  // numbers already rounded to the law's scalar type
   std::vector<double> between, to_tool, to_ground;
   double through = 0;
-  std::vector<VariableId> held;       // at every inner end, then at the tool [N]; no_variable where it is 0
-  std::vector<VariableId> moved;      // local, of every inner end [m]
-  std::vector<VariableId> sign;       // local, of every slip: −1, 0 or 1
-  std::vector<VariableId> last_sign;  // the states that remember them
-  std::optional<TunedNetwork> tuned = {};
-  ElementList elements = {};                // all of them; none where parameters change the numbers
-  std::vector<std::size_t> end_nodes = {};  // of the network, one an inner end; the same
+  std::vector<VariableId> last_sign;  // the states that remember the signs
+  std::optional<TunedNetwork> tuned;
+  ElementList elements;                // all of them; none where parameters change the numbers
+  std::vector<std::size_t> end_nodes;  // of the network, one an inner end; the same
 
   int slip_count() const { return static_cast<int>(links.size()); }
   int patterns() const { return slip_network_patterns(links.data(), slip_count()); }

@@ -10,18 +10,17 @@ void visit_all(const std::vector<VariableId>& variables, const VisitVariable& vi
     if (variable != no_variable) visit(variable);
 }
 
+// Beside the forces held.
 struct SolverReads {
   const UpdateLaw& law;
   const VisitVariable& visit;
   void operator()(const Assign&) const {}
   void operator()(const SolveTree& step) const {
-    const Coupling& coupling = law.couplings[step.coupling];
-    visit_all(coupling.held, visit);
-    for (const TunedNode& node : coupling.tuned) visit_all({node.stiffness, node.compliance, node.yield}, visit);
+    for (const TunedNode& node : law.couplings[step.coupling].tuned)
+      visit_all({node.stiffness, node.compliance, node.yield}, visit);
   }
   void operator()(const SolveNetwork& step) const {
     const SlipNetwork& network = law.networks[step.network];
-    visit_all(network.held, visit);
     visit_all(network.last_sign, visit);
     if (!network.tuned) return;
     for (const auto* numbers :
@@ -31,25 +30,6 @@ struct SolverReads {
   }
   void operator()(const Call& step) const {
     for (const ExpressionId given : step.given) each_read(law, given, visit);
-  }
-};
-
-struct SolverAssigns {
-  const UpdateLaw& law;
-  const VisitVariable& visit;
-  void operator()(const Assign&) const {}
-  void operator()(const SolveTree& step) const {
-    const Coupling& coupling = law.couplings[step.coupling];
-    visit_all(coupling.elongation, visit);
-    visit_all(coupling.sign, visit);
-    visit_all({coupling.surface_change}, visit);
-  }
-  void operator()(const SolveNetwork& step) const {
-    visit_all(law.networks[step.network].moved, visit);
-    visit_all(law.networks[step.network].sign, visit);
-  }
-  void operator()(const Call& step) const {
-    for (const auto& [result, variable] : step.found) visit(variable);
   }
 };
 
@@ -71,12 +51,17 @@ void each_read(const UpdateLaw& law, ExpressionId id, const VisitVariable& visit
 
 void each_read(const UpdateLaw& law, const Statement& statement, const VisitVariable& visit) {
   each_read(law, statement.value, visit);
+  visit_solved(law, statement, [&](const SolvedSlips& solved) { visit_all(solved.held, visit); });
   std::visit(SolverReads{law, visit}, statement.step);
 }
 
 void each_assigned(const UpdateLaw& law, const Statement& statement, const VisitVariable& visit) {
   visit(statement.target);
-  std::visit(SolverAssigns{law, visit}, statement.step);
+  visit_solved(law, statement, [&](const SolvedSlips& solved) {
+    each_result(solved, [&](VariableId id, SlipResult, std::size_t) { visit(id); });
+  });
+  if (const auto* call = std::get_if<Call>(&statement.step))
+    for (const auto& [result, variable] : call->found) visit(variable);
 }
 
 bool reads(const UpdateLaw& law, const std::vector<Statement>& program, VariableId variable) {

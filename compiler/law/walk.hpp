@@ -33,6 +33,39 @@ void each_expression(const UpdateLaw& law, const Statement& statement, const Vis
     for (const ExpressionId given : call->given) each_expression(law, given, visit);
 }
 
+// The tables of slips that are solved together, trees first.
+template <class Law, class Visit>
+void each_solved(Law& law, const Visit& visit) {
+  for (auto& tree : law.couplings) visit(tree);
+  for (auto& network : law.networks) visit(network);
+}
+
+// The table that a statement solves. Out: false, without a visit, where it assigns or calls.
+template <class Visit>
+bool visit_solved(const UpdateLaw& law, const Statement& statement, const Visit& visit) {
+  if (const auto* tree = std::get_if<SolveTree>(&statement.step)) return visit(law.couplings[tree->coupling]), true;
+  if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
+    return visit(law.networks[network->network]), true;
+  return false;
+}
+
+// What a step finds beside the force, where something follows it.
+enum class SlipResult {
+  surface,  // Δs
+  moved,
+  sign,
+};
+// In: visit(variable, kind of result, place in the list of that kind). A surface may be one of what moves.
+template <class Visit>
+void each_result(const SolvedSlips& solved, const Visit& visit) {
+  const bool is_among_moved = !solved.moved.empty() && solved.moved.back() == solved.surface;
+  if (solved.is_pushed() && !is_among_moved) visit(solved.surface, SlipResult::surface, std::size_t{0});
+  for (const auto& [what, list] :
+       {std::pair(SlipResult::moved, &solved.moved), std::pair(SlipResult::sign, &solved.sign)})
+    for (std::size_t i = 0; i < list->size(); ++i)
+      if ((*list)[i] != no_variable) visit((*list)[i], what, i);
+}
+
 using VisitVariable = std::function<void(VariableId)>;
 
 // Visits the variables that an expression reads, each as often as it is read.

@@ -1,5 +1,7 @@
 #include "lower/apart_from.hpp"
 
+#include "law/walk.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -11,8 +13,7 @@ void each_name(UpdateLaw& law, Visit visit) {
   };
   for (Variable& variable : law.variables) visit_all(variable);
   for (Coefficient& coefficient : law.coefficients) visit_all(coefficient);
-  for (Coupling& coupling : law.couplings) visit(coupling.name);
-  for (SlipNetwork& network : law.networks) visit(network.name);
+  each_solved(law, [&](SolvedSlips& solved) { visit(solved.name); });
 }
 
 }  // namespace

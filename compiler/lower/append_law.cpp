@@ -80,13 +80,13 @@ class Appending {
       law_.expressions.add(e);
     }
     for (Coupling coupling : own_.couplings) {
-      for (auto* ids : {&coupling.held, &coupling.elongation, &coupling.sign}) move(*ids);
-      coupling.surface_change = result_.at(coupling.surface_change);
+      move(static_cast<SolvedSlips&>(coupling));
       const std::string own = coupling.name;
       remember(law_.couplings[law_.couplings.add(renamed(std::move(coupling)))].name, own);
     }
     for (SlipNetwork network : own_.networks) {
-      for (auto* ids : {&network.held, &network.moved, &network.sign, &network.last_sign}) move(*ids);
+      move(static_cast<SolvedSlips&>(network));
+      move(network.last_sign);
       const std::string own = network.name;
       const SlipNetworkId id = law_.networks.add(renamed(std::move(network)));
       for (const char* table : tables_of_slip_network) remember(law_.networks[id].name + table, own + table);
@@ -95,6 +95,10 @@ class Appending {
 
   void move(std::vector<VariableId>& ids) const {
     for (VariableId& id : ids) id = result_.at(id);
+  }
+  void move(SolvedSlips& solved) const {
+    for (auto* ids : {&solved.held, &solved.moved, &solved.sign}) move(*ids);
+    solved.surface = result_.at(solved.surface);
   }
 
   std::vector<Statement> program(const std::vector<Statement>& statements) const {

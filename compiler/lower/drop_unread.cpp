@@ -21,12 +21,11 @@ bool drop_once(UpdateLaw& law) {
   };
   for (const std::vector<Statement>* program : programs(law)) add_reads(*program);
   add_reads(law.rest);
-  for (SlipNetwork& network : law.networks)
-    for (VariableId& moved : network.moved)
-      if (read.count(moved) == 0) moved = no_variable;
-  for (Coupling& coupling : law.couplings)
-    for (VariableId& sign : coupling.sign)
-      if (read.count(sign) == 0) sign = no_variable;
+  each_solved(law, [&](SolvedSlips& solved) {
+    for (auto* found : {&solved.moved, &solved.sign})
+      for (VariableId& id : *found)
+        if (read.count(id) == 0) id = no_variable;
+  });
   std::size_t dropped = 0;
   for (auto* program : {&law.output, &law.update, &law.energy, &law.tune, &law.carry, &law.rest})
     dropped += std::erase_if(*program, [&](const Statement& statement) {

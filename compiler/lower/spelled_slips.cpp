@@ -54,7 +54,7 @@ void SpelledSlips::declare(const TunableCoupling& table) {
       if (block > 0 && blocks_[block].held != nothing)
         elongation = elongations_[block] =
             numbers_.scalar(joined(blocks_[block].name, "stretched"), writer_.length(), "δ of the block", Role::local);
-      coupling.elongation.push_back(elongation);
+      coupling.moved.push_back(elongation);
       coupling.held.push_back(blocks_[block].held == nothing ? no_variable : blocks_[block].held);
     }
     if (node.kind != slip_part::slip) continue;
@@ -256,14 +256,15 @@ void SpelledSlips::write_push(VariableId force, ExpressionId approach, VariableI
 }
 
 void SpelledSlips::write_tree(Tree& tree, VariableId force, ExpressionId change, VariableId surface_change) {
-  tree.coupling.surface_change = surface_change;
+  tree.coupling.surface = surface_change;
   numbers_.assign(force, change, "f and every block's δ, by curves, signs and numbers");
   numbers_.last().step = SolveTree{writer_.law().couplings.add(tree.coupling)};
 }
 
 void SpelledSlips::write_graph(Graph& graph, VariableId force, ExpressionId change, VariableId surface_change) {
   SlipNetwork& network = graph.network;
-  if (surface_change != no_variable) network.moved.push_back(surface_change);
+  network.surface = surface_change;
+  if (network.is_pushed()) network.moved.push_back(surface_change);
   std::vector<ExpressionId> held(place(network.node_count) + 2, nothing);
   for (int i = 0; i < graph.table->tie_count; ++i) {
     const TunableEnds& tie = tables_.ties[place(graph.table->first_tie + i)];
@@ -299,8 +300,7 @@ ExpressionId SpelledSlips::damping_of(const std::vector<ExpressionId>& slides, c
     sum = writer_.plus(sum, regime.of_tree(lone.nodes, joined(prefix, tables_.slip_names[lone.slip])));
   }
   for (const Tree& tree : trees_) {
-    const int blocks = static_cast<int>(tree.coupling.held.size()),
-              slips = static_cast<int>(tree.coupling.slips.size());
+    const int blocks = static_cast<int>(tree.coupling.held.size()), slips = tree.coupling.slip_count();
     SpelledRegime regime(numbers_, part_of(damping, static_cast<int>(tree.first_block), blocks),
                          part_of(slides, static_cast<int>(tree.first_slip), slips));
     sum = writer_.plus(sum, regime.of_tree(tree.coupling.nodes, joined(prefix, tree.coupling.name)));
@@ -309,11 +309,11 @@ ExpressionId SpelledSlips::damping_of(const std::vector<ExpressionId>& slides, c
     const TunableGraph& table = *graph.table;
     SpelledRegime regime(numbers_, part_of(damping, table.first_block, table.tie_count),
                          part_of(slides, table.first_slip, table.link_count));
-    const int tool = is_pushed() ? table.end_count - 1 : table.end_count;
-    sum = writer_.plus(sum,
-                       regime.of_graph(table.end_count, tool, part_of(tables_.ties, table.first_tie, table.tie_count),
-                                       part_of(tables_.links, table.first_slip, table.link_count),
-                                       joined(prefix, graph.network.name)));
+    const int of_tool = is_pushed() ? table.end_count - 1 : table.end_count;
+    sum = writer_.plus(
+        sum, regime.of_graph(table.end_count, of_tool, part_of(tables_.ties, table.first_tie, table.tie_count),
+                             part_of(tables_.links, table.first_slip, table.link_count),
+                             joined(prefix, graph.network.name)));
   }
   return sum;
 }

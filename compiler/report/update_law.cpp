@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "law/walk.hpp"
 #include "report/equations.hpp"
 #include "report/law_mathml.hpp"
 #include "report/markup.hpp"
@@ -22,20 +23,21 @@ bool only_copies(const UpdateLaw& law, const Statement& statement) {
   return law.expressions[statement.value].operation == Operation::read && statement.assigns();
 }
 
-std::string coupled(const UpdateLaw& law, const Statement& statement, const Coupling& coupling) {
+template <class Solved>
+std::string solved_together(const UpdateLaw& law, const Statement& statement, const Solved& slips) {
   return line(variable_mathml(law.variables[statement.target]), "=",
               "<mi>slips</mi><mo stretchy=\"false\">(</mo>" + expression_mathml(law, statement.value) +
                   "<mo stretchy=\"false\">)</mo>",
-              fmt::format("{} slip{} at most {} operations", coupling.slips.size(),
-                          coupling.slips.size() == 1 ? "," : "s together,", coupling.operations()));
+              fmt::format("{} slip{} at most {} operations", slips.slip_count(),
+                          slips.slip_count() == 1 ? "," : "s together,", slips.operations()));
 }
 
 std::string program(const UpdateLaw& law, const std::vector<Statement>& statements) {
   std::string list = "<ul class=\"law\">\n";
   for (const Statement& s : statements) {
     const Variable& target = law.variables[s.target];
-    if (const auto* tree = std::get_if<SolveTree>(&s.step)) list += coupled(law, s, law.couplings[tree->coupling]);
-    else if (target.role == Role::local || !only_copies(law, s))
+    if (visit_solved(law, s, [&](const auto& slips) { list += solved_together(law, s, slips); })) continue;
+    if (target.role == Role::local || !only_copies(law, s))
       list += line(variable_mathml(target), target.role == Role::local ? "=" : "←", expression_mathml(law, s.value),
                    s.purpose);
     else if (target.name == "last_position")

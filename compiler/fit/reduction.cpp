@@ -10,6 +10,7 @@
 #include "fit/floor.hpp"
 #include "fit/non_negative.hpp"
 #include "fit/projection.hpp"
+#include "fit/uncertainty.hpp"
 
 namespace dashpot::compiler::fitting {
 namespace {
@@ -106,10 +107,11 @@ class Reducer {
     for (Model& model : rich) model = pruned(refine(std::move(model), {30, 1e-7}));
     effective_ = effective_samples(problem_, *std::min_element(rich.begin(), rich.end(), has_less_left));
     Reduction best = reduction_down(std::move(rich.front()));
-    std::vector<ShapeTried> shapes{tried(best.model)};
+    std::vector<ShapeTried> shapes;
+    add_tried(best.model, shapes);
     for (std::size_t i = 1; i < rich.size(); ++i) {
       Reduction other = reduction_down(std::move(rich[i]));
-      shapes.push_back(tried(other.model));
+      add_tried(other.model, shapes);
       take_better(best, std::move(other));
     }
     if (choices_.springpots)
@@ -180,9 +182,10 @@ class Reducer {
     return model;
   }
 
-  ShapeTried tried(const Model& model) const {
-    return {model.curve ? std::optional(model.curve->kind()) : std::nullopt, parameters(model),
-            std::sqrt(model.residual_sum / problem_.weighed_rows()), score(model, effective_)};
+  void add_tried(const Model& model, std::vector<ShapeTried>& shapes) const {
+    if (!can_be_written(model)) return;
+    shapes.push_back({model.curve ? std::optional(model.curve->kind()) : std::nullopt, parameters(model),
+                      std::sqrt(model.residual_sum / problem_.weighed_rows()), score(model, effective_)});
   }
 
   Model start(const std::optional<CurveShape>& curve) const {
@@ -216,7 +219,11 @@ class Reducer {
     return refined(problem_, std::move(model), choices_.gains_are_free, limits);
   }
 
+  // A curve in a file is the force of a spring or of relaxations.
+  static bool can_be_written(const Model& model) { return !model.curve || curve_stiffness(model).value > 0; }
+
   double score(const Model& model, double effective) const {
+    if (!can_be_written(model)) return std::numeric_limits<double>::infinity();
     return criterion(problem_, model, effective, choices_.gains_are_free);
   }
 
@@ -225,12 +232,13 @@ class Reducer {
   Reduction reduction_down(Model model) const {
     Reduction result;
     result.effective_samples = effective_;
-    for (;;) {
-      result.path.push_back({model, score(model, effective_), parameter_count(model, choices_.gains_are_free),
-                             std::sqrt(model.residual_sum / problem_.weighed_rows())});
+    for (;; model = pruned(one_fewer(model))) {
+      const bool is_last = reducible_count(model) == 0;
+      if (can_be_written(model) || (is_last && result.path.empty()))
+        result.path.push_back({model, score(model, effective_), parameters(model),
+                               std::sqrt(model.residual_sum / problem_.weighed_rows())});
       if (progress_) progress_(reducible_count(model));
-      if (reducible_count(model) == 0) break;
-      model = pruned(one_fewer(model));
+      if (is_last) break;
     }
     choose(result);
     result.model = tested(refine(result.path[result.chosen].model, thorough));

@@ -53,8 +53,7 @@ CurveStiffness curve_stiffness(const Model& model) {
   CurveStiffness at_rest, at_once{0, true};
   for (std::size_t j = 0; j < model.terms.size(); ++j) {
     const TermKind kind = model.terms[j].kind;
-    const bool holds = kind == TermKind::spring || kind == TermKind::stop || kind == TermKind::sliding;
-    if (holds) at_rest.value += model.weight(j);
+    if (kind == TermKind::spring) at_rest.value += model.weight(j);
     if (kind == TermKind::maxwell || kind == TermKind::springpot) at_once.value += model.weight(j);
   }
   return at_rest.value > 0 ? at_rest : at_once;

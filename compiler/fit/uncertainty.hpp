@@ -28,8 +28,9 @@ struct CurveQuantity {
 double value_of(const Model& model, const CurveQuantity& quantity);
 std::vector<CurveQuantity> curve_quantities(const CurveShape& curve);
 
-// The stiffness that a network's static curve is made from: of its springs and those in front of slips, or if there are
-// none, of all Maxwell branches and springpots [N/m]; `is_instantaneous` for the latter.
+// The stiffness that a network's static curve is made from: of the spring from tool to ground, or if there is none, of
+// all Maxwell branches and springpots [N/m]; `is_instantaneous` for the latter. What slips hold comes on top. 0 of
+// slips and dampers alone, behind which no curve can be written.
 struct CurveStiffness {
   double value = 0;
   bool is_instantaneous = false;

@@ -262,8 +262,6 @@ class FitCommand {
         continue;
       }
       note_start(*read, &recordings == &recordings_, recordings.size());
-      is_rotation_ = read->is_rotation;
-      rotations_ += read->is_rotation ? 1 : 0;
       warn_of_the_same(read->recording, &recordings == &recordings_);
       recordings.push_back(std::move(read->recording));
     }
@@ -302,20 +300,21 @@ class FitCommand {
     return "";
   }
 
+  static const char* word_of(motion port_motion) {
+    return port_motion == motion::rotation ? "rotation" : "translation";
+  }
+
   bool are_alike() {
     const Recording& first = recordings_.front();
     for (const std::vector<Recording>* list : {&recordings_, &held_out_})
-      for (const Recording& recording : *list)
-        if (recording.kind != first.kind) {
-          diagnostics_.report<DiagnosticCode::recordings_differ>({}, first.name, word_of(first.kind), recording.name,
-                                                                 word_of(recording.kind));
-          return false;
-        }
-    if (rotations_ != 0 && rotations_ != recordings_.size() + held_out_.size()) {
-      diagnostics_.report<DiagnosticCode::recordings_differ>({}, first.name, "translation", recordings_.back().name,
-                                                             "rotation");
-      return false;
-    }
+      for (const Recording& recording : *list) {
+        const bool is_same_kind = recording.kind == first.kind;
+        if (is_same_kind && recording.port_motion == first.port_motion) continue;
+        const auto word = [&](const Recording& r) { return is_same_kind ? word_of(r.port_motion) : word_of(r.kind); };
+        diagnostics_.report<DiagnosticCode::recordings_differ>({}, first.name, word(first), recording.name,
+                                                               word(recording));
+        return false;
+      }
     return true;
   }
 
@@ -345,9 +344,7 @@ class FitCommand {
     }
     const auto [low, high] = way();
     if (*choices_.contact >= high) {
-      const auto text = [&](double place) {
-        return place_text(place, is_rotation_ ? motion::rotation : motion::translation);
-      };
+      const auto text = [&](double place) { return place_text(place, recordings_.front().port_motion); };
       diagnostics_.report<DiagnosticCode::fit_surface_beyond>({}, text(*choices_.contact), text(low), text(high));
       diagnostics_.note<DiagnosticCode::fit_contact_remedy>({});
       return false;
@@ -364,7 +361,7 @@ class FitCommand {
                          : words_.weight == "deviation"                                ? Weighting::deviation
                          : words_.weight == "auto" && kind == RecordingKind::frequency ? Weighting::relative
                                                                                        : Weighting::uniform;
-    choices_.port_motion = is_rotation_ ? motion::rotation : motion::translation;
+    choices_.port_motion = recordings_.front().port_motion;
     choices_.name = words_.name ? *words_.name : options_.output ? name_of_file(*options_.output) : "fitted";
     choices_.command = command_line(words_);
     choices_.title = words_.title.value_or("");
@@ -407,8 +404,6 @@ class FitCommand {
   ReadChoices read_;
   FitChoices choices_;
   std::vector<Recording> recordings_, held_out_;
-  std::size_t rotations_ = 0;
-  bool is_rotation_ = false;
 };
 
 }  // namespace

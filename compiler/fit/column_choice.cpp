@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "network/decimal.hpp"
+#include "network/port_units.hpp"
 #include "network/unit.hpp"
 #include "source/counted.hpp"
 #include "source/excerpt.hpp"
@@ -225,6 +226,18 @@ std::string spelt_by(const std::string& name, std::size_t index, const std::vect
   return is_plain && index_of(name, columns, width) == index ? name : std::to_string(index + 1);
 }
 
+// Whether its unit is that of a tool that is shifted or turned; empty for times and for a material's quantities.
+std::optional<motion> motion_in(const ChosenColumn& column) {
+  if (column.role == Role::omega || column.role == Role::frequency) return std::nullopt;
+  const auto is_one_of = [&](std::initializer_list<Dimension> list) {
+    return std::find(list.begin(), list.end(), column.dimension) != list.end();
+  };
+  using namespace dimensions;
+  if (is_one_of({length, velocity, force, stiffness, compliance})) return motion::translation;
+  const bool turns = is_one_of({angle, angular_velocity, torque, rotational_stiffness, rotational_compliance});
+  return turns ? std::optional(motion::rotation) : std::nullopt;
+}
+
 class Chooser {
  public:
   Chooser(const std::string& path, const TableShape& shape, const ColumnSearch& search, Diagnostics& diagnostics)
@@ -245,7 +258,36 @@ class Chooser {
     if (shape_.names.empty() && !has_all()) return ask_for_names();
     find_missing();
     if (diagnostics_.error_count() > errors_before) return;
-    if (!has_all()) ask_for_columns();
+    if (!has_all()) return ask_for_columns();
+    check_that_they_agree();
+  }
+
+  // A column says whether a tool is shifted or turned, and those beside it have to say the same. A loss is in what its
+  // storage is in.
+  void check_that_they_agree() {
+    const ChosenColumn* first = nullptr;
+    for (const Role role : {Role::position, Role::storage, Role::modulus, Role::compliance})
+      if (first == nullptr) first = find_column(chosen_, role);
+    if (first == nullptr) return;
+    const std::optional<motion> is = motion_in(*first);
+    for (const ChosenColumn& other : chosen_) {
+      const std::optional<motion> says = motion_in(other);
+      const bool is_other_motion = is && says && says != is;
+      const bool is_other_loss = other.role == Role::loss && other.dimension != first->dimension;
+      if (!is_other_motion && !is_other_loss) continue;
+      diagnostics_.report<DiagnosticCode::recording_wrong_unit>(
+          {}, other.title, other.unit, fmt::format("{} that goes with '{}'", rule_of(other.role).word, first->title),
+          other.role == Role::loss ? first->unit : unit_beside(other.role, port_units(*is)));
+      return;
+    }
+  }
+
+  static std::string unit_beside(Role role, const PortUnits& units) {
+    switch (role) {
+      case Role::velocity: return units.velocity;
+      case Role::force: return units.force;
+      default: return units.stiffness;
+    }
   }
 
   bool has(Role role) const { return find_column(chosen_, role) != nullptr; }
@@ -340,7 +382,7 @@ class Chooser {
     }
     if (is_named && columns_[*index].unit) warn_of_unit(columns_[*index], *unit, *read);
     add({request.role, *index, request.offset, request.is_negated ? -read->factor : read->factor, read->dimension,
-         title});
+         title, *unit});
   }
 
   // Where --columns overrules a header that says otherwise.
@@ -357,7 +399,7 @@ class Chooser {
   }
 
   void add_scaled(const ColumnRequest& request, std::size_t index, const std::string& title) {
-    add({request.role, index, request.offset, *search_.scale, search_.scale_dimension, title});
+    add({request.role, index, request.offset, *search_.scale, search_.scale_dimension, title, ""});
   }
 
   void add(ChosenColumn column) {
@@ -758,6 +800,17 @@ RecordingKind kind_of(const std::vector<ChosenColumn>& columns) {
   if (find_column(columns, Role::modulus) != nullptr) return RecordingKind::relaxation;
   if (find_column(columns, Role::compliance) != nullptr) return RecordingKind::creep;
   return RecordingKind::motion;
+}
+
+motion motion_of(const std::vector<ChosenColumn>& columns) {
+  const bool turns = std::any_of(columns.begin(), columns.end(),
+                                 [](const ChosenColumn& column) { return motion_in(column) == motion::rotation; });
+  return turns ? motion::rotation : motion::translation;
+}
+
+bool is_of_a_material(const ChosenColumn& column) {
+  return column.role == Role::strain || column.role == Role::stress || column.dimension == pressure ||
+         column.dimension == per_pressure;
 }
 
 std::optional<std::vector<ChosenColumn>> choose_columns(const std::string& path, const TableShape& shape,

@@ -87,6 +87,7 @@ struct ChosenColumn {
   double scale;
   Dimension dimension;
   std::string title;  // as the file names it
+  std::string unit;   // as the file or --columns writes it; empty where --scale says what 1 stands for
 };
 
 struct ColumnSearch {
@@ -100,11 +101,17 @@ struct ColumnSearch {
 // In: a table's shape. Out: the columns of a motion (time; position or strain; force or stress), a relaxation (time,
 // modulus), creep (time, compliance) or a spectrum (omega or frequency; storage, loss), and a deviation where there is
 // one. Asks, with the command line that answers: for what has no unit, no name, or more than one candidate. Refuses:
-// names that are not there, units that do not fit.
+// names that are not there, units that do not fit, or not beside each other: a torque beside a displacement.
 std::optional<std::vector<ChosenColumn>> choose_columns(const std::string& path, const TableShape& shape,
                                                         const ColumnSearch& search, Diagnostics& diagnostics);
 
 RecordingKind kind_of(const std::vector<ChosenColumn>& columns);
+
+// A rotation where any column's unit is that of an angle, a torque or a quotient of them; else a translation.
+motion motion_of(const std::vector<ChosenColumn>& columns);
+
+// Whether a geometry is needed to make it a quantity at a tool.
+bool is_of_a_material(const ChosenColumn& column);
 const ChosenColumn* find_column(const std::vector<ChosenColumn>& columns, Role role);
 
 std::string shell_word(const std::string& word);       // as a shell takes it

@@ -77,10 +77,7 @@ class RecordingReader {
   bool settle(const std::vector<ChosenColumn>& columns) {
     columns_ = columns;
     recording().kind = kind_of(columns);
-    if (const ChosenColumn* force = find_column(columns, Role::force))
-      result_.is_rotation = force->dimension == dimensions::torque;
-    if (const ChosenColumn* position = find_column(columns, Role::position))
-      result_.is_rotation = position->dimension == dimensions::angle;
+    recording().port_motion = motion_of(columns);
     const ChosenColumn* material = material_column();
     if (material != nullptr && !choices_.geometry && !choices_.awaits_geometry) {
       diagnostics_.report<DiagnosticCode::recording_without_geometry>({}, lines_.path(), material->title,
@@ -100,14 +97,7 @@ class RecordingReader {
 
   // The first that is no force or displacement at a tool.
   const ChosenColumn* material_column() const {
-    const auto is_material = [](const ChosenColumn& c) {
-      const bool has_modulus = c.role == Role::modulus || c.role == Role::storage || c.role == Role::loss;
-      return c.role == Role::strain || c.role == Role::stress || c.role == Role::compliance ||
-             (has_modulus && c.dimension == Dimension{1, -1, -2});
-    };
-    const auto material = std::find_if(columns_.begin(), columns_.end(), [&](const ChosenColumn& c) {
-      return is_material(c) && !(c.role == Role::compliance && c.dimension == Dimension{-1, 0, 2});
-    });
+    const auto material = std::find_if(columns_.begin(), columns_.end(), is_of_a_material);
     return material == columns_.end() ? nullptr : &*material;
   }
 

@@ -31,7 +31,6 @@ struct ReadChoices {
 
 struct ReadRecording {
   Recording recording;
-  bool is_rotation = false;
   bool has_assumed_start = false;  // a row at rest was put before the first
   bool begins_in_motion = false;
 };

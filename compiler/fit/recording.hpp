@@ -1,6 +1,8 @@
 // A measurement, in SI and at the tool: what `dashpot fit` fits to.
 #pragma once
 
+#include <dashpot/command.hpp>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -19,6 +21,7 @@ struct Recording {
   std::string name;    // of its file
   std::string digest;  // of the file's bytes
   RecordingKind kind = RecordingKind::motion;
+  motion port_motion = motion::translation;
   std::vector<double> time;       // [s]; of frequency: angular frequency [rad/s]; rising
   std::vector<double> position;   // of a motion: from rest [m]; else empty
   std::vector<double> force;      // motion [N], relaxation [N/m], creep [m/N], frequency: storage [N/m]

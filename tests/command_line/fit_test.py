@@ -289,6 +289,40 @@ int main() {
         self.assertEqual((table["kind"], table["is"]), ("table", "equilibrium"))
         self.assertIn(len(table["values"]), (4, 8, 16))
 
+    def test_what_turns(self):
+        """Fails if a spectrum, a relaxation or creep of a tool that turns is taken for one that is shifted or for a
+        material's; if columns of both are taken together; or if of two files it is told the wrong way round."""
+        spectrum = "".join(f"{w},{5 + 2 * w * w / (1 + w * w)!r},{2 * w / (1 + w * w)!r}\n" for w in (0.1, 0.5, 1, 2, 9))
+        times = [0.1 * i for i in range(60)]
+        relaxation = "".join(f"{t},{5 + 2 * math.exp(-t)!r}\n" for t in times)
+        creep = "".join(f"{t},{0.5 - 0.2 * math.exp(-t)!r}\n" for t in times)
+        for header, rows, words in (("omega [rad/s],storage [N m/rad],loss [N m/rad]\n", spectrum, []),
+                                    ("time [s],modulus [N m/rad]\n", relaxation, ["--relaxation"]),
+                                    ("time [s],compliance [rad/(N m)]\n", creep, ["--creep"])):
+            self.write("turned.csv", header + rows)
+            self.fit("turned.csv", *words, "-o", "turned.json")
+            self.assertEqual(json.loads((self.folder / "turned.json").read_text())["motion"], "rotation", header)
+        rows = "".join(f"{t},{1e-3 * math.sin(t)!r},{math.sin(t)!r}\n" for t in times)
+        for header, told in (
+                ("time [s],angle [rad],force [N]", "column 'force [N]' in 'N'; a force that goes with 'angle [rad]' is "
+                 "expected in a unit such as 'N m'"),
+                ("time [s],position [m],torque [N m]", "column 'torque [N m]' in 'N m'; a force that goes with "
+                 "'position [m]' is expected in a unit such as 'N'"),
+                ("omega [rad/s],storage [N m/rad],loss [N/m]", "a loss that goes with 'storage [N m/rad]' is expected "
+                 "in a unit such as 'N m/rad'"),
+                ("omega [rad/s],storage [Pa],loss [N/m]", "a loss that goes with 'storage [Pa]' is expected in a unit "
+                 "such as 'Pa'")):
+            self.write("mixed.csv", f"{header}\n{rows}")
+            done = self.fit("mixed.csv", status=INPUT_REFUSED)
+            self.assertIn("[recording-wrong-unit]", done.stderr, header)
+            self.assertIn(told, done.stderr)
+        self.write("turns.csv", f"time [s],angle [rad],torque [N m]\n{rows}")
+        self.write("shifts.csv", f"time [s],position [m],force [N]\n{rows}")
+        self.assertIn("'turns.csv' is a rotation, 'shifts.csv' a translation",
+                      self.fit("turns.csv", "shifts.csv", status=INPUT_REFUSED).stderr)
+        self.assertIn("'shifts.csv' is a translation, 'turns.csv' a rotation",
+                      self.fit("shifts.csv", "--hold-out", "turns.csv", status=INPUT_REFUSED).stderr)
+
     def test_slips_behind_a_curve(self):
         """Fails if what is written is another network than what was fitted: springs behind slips are not in the force
         of a static curve. Or if a network is written that has nothing but them behind it, which is refused."""

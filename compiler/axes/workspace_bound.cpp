@@ -33,13 +33,15 @@ struct ForceForm {
   }
 };
 
-// Both ends of M. If nothing clamps and no surface lies in the box, they are affine in the depth, else constants that
-// bound M over the box. What is needed is convex in M, so that the ends are enough.
-Pair<ForceForm> force_ends(const PortLoad& load, const Interval& depth, const Interval& range) {
+// Both ends of M, or one where they are the same: of a spring alone, whose force is that of its depth. If nothing
+// clamps and no surface lies in the box, they are affine in the depth, else constants that bound M over the box. What
+// is needed is convex in M, so that the ends are enough.
+std::vector<ForceForm> force_ends(const PortLoad& load, const Interval& depth, const Interval& range) {
   const Interval force = motor_force(load, depth, range);
   const double stiffness = load.grounded + load.relaxing;
   const Interval more = Interval(load.yields) + Interval(load.estimated), relaxing(load.relaxing);
   if (force.low > -load.clamp && force.high < load.clamp) {
+    if (!load.unilateral && load.relaxing == 0 && more.high == 0) return {ForceForm{stiffness, Interval(0)}};
     if (!load.unilateral) {
       return {ForceForm{stiffness, -(relaxing * Interval(range.high) + more)},
               ForceForm{stiffness, more - relaxing * Interval(range.low)}};
@@ -146,6 +148,18 @@ PortLoad beside_field(const PortLoad& load) {
   return rest;
 }
 
+// The one that asks for the least.
+Symmetric<Sloped> least_of(const std::vector<Symmetric<Sloped>>& enough, const Pair<double>& weight) {
+  if (enough.size() == 1) return enough.front();
+  std::size_t best = 0;
+  double least = infinity;
+  for (std::size_t i = 0; i < enough.size(); ++i) {
+    const double x = weighed(enough[i], weight).x;
+    if (x < least) best = i, least = x;
+  }
+  return enough[best];
+}
+
 class PortNeed {
  public:
   PortNeed(const PortLoad& load, const Interval& range) : load_(load), rest_(beside_field(load)), range_(range) {}
@@ -195,27 +209,29 @@ class PortNeed {
   }
 
  private:
-  static Symmetric<Sloped> least_of(const std::vector<Symmetric<Sloped>>& enough, const Pair<double>& weight) {
-    if (enough.size() == 1) return enough.front();
-    std::size_t best = 0;
-    double least = infinity;
-    for (std::size_t i = 0; i < enough.size(); ++i) {
-      const double x = weighed(enough[i], weight).x;
-      if (x < least) best = i, least = x;
-    }
-    return enough[best];
-  }
-
   const PortLoad& load_;
   PortLoad rest_;
   Interval range_;
 };
 
-// Each of `sums` plus each of `ends`.
+constexpr std::size_t most_sums = 64;
+
+// One matrix that is no less than either end, so that their mean and what they differ by at most are enough.
+Symmetric<Sloped> above_both(const Symmetric<Sloped>& one, const Symmetric<Sloped>& other, const Pair<double>& weight) {
+  const Symmetric<Sloped> mean = Sloped(0.5) * (one + other);
+  std::vector<Symmetric<Sloped>> enough;
+  for (const Symmetric<Sloped>& half : latenesses_of(0.5, one - other, weight)) enough.push_back(mean + half);
+  return least_of(enough, weight);
+}
+
+// Each of `sums` plus each of `ends`, of which there are one or two; where that would be too many sums, plus a bound of
+// both ends.
 std::vector<Symmetric<Sloped>> with_each(const std::vector<Symmetric<Sloped>>& sums,
-                                         const std::vector<Symmetric<Sloped>>& ends) {
+                                         const std::vector<Symmetric<Sloped>>& ends, const Pair<double>& weight) {
   if (ends.empty()) return sums;
   if (sums.empty()) return ends;
+  if (sums.size() * ends.size() > most_sums && ends.size() == 2)
+    return with_each(sums, {above_both(ends[0], ends[1], weight)}, weight);
   std::vector<Symmetric<Sloped>> result;
   for (const Symmetric<Sloped>& sum : sums)
     for (const Symmetric<Sloped>& end : ends) result.push_back(sum + end);
@@ -265,16 +281,16 @@ class Search {
     bool has_a_choice = false;
     for (const PortNeed& port : ports_) {
       const PortNeed::Ends ends = port.over(region.reached, loop_.delay, weight_);
-      stands = with_each(stands, ends.as_it_stands);
-      tightest = with_each(tightest, ends.tightest);
+      stands = with_each(stands, ends.as_it_stands, weight_);
+      tightest = with_each(tightest, ends.tightest, weight_);
       has_a_choice = has_a_choice || ends.has_a_choice;
       field = field + ends.field;
     }
     const Symmetric<Sloped> given = given_ ? given_(region.from) : none;
     Largest least{infinity};
     for (const Symmetric<Sloped>& late : latenesses_of(loop_.delay, field, weight_)) {
-      const Largest one = largest(with_each(stands, {late}), given, scale);
-      const Largest other = has_a_choice ? largest(with_each(tightest, {late}), given, nullptr) : one;
+      const Largest one = largest(with_each(stands, {late}, weight_), given, scale);
+      const Largest other = has_a_choice ? largest(with_each(tightest, {late}, weight_), given, nullptr) : one;
       least = std::min({least, one, other}, [](const Largest& a, const Largest& b) { return a.x < b.x; });
     }
     return least;

@@ -292,7 +292,8 @@ int main() {
     def test_what_turns(self):
         """Fails if a spectrum, a relaxation or creep of a tool that turns is taken for one that is shifted or for a
         material's; if columns of both are taken together; or if of two files it is told the wrong way round."""
-        spectrum = "".join(f"{w},{5 + 2 * w * w / (1 + w * w)!r},{2 * w / (1 + w * w)!r}\n" for w in (0.1, 0.5, 1, 2, 9))
+        spectrum = "".join(f"{w},{5 + 2 * w * w / (1 + w * w)!r},{2 * w / (1 + w * w)!r}\n"
+                           for w in (0.1, 0.5, 1, 2, 9))
         times = [0.1 * i for i in range(60)]
         relaxation = "".join(f"{t},{5 + 2 * math.exp(-t)!r}\n" for t in times)
         creep = "".join(f"{t},{0.5 - 0.2 * math.exp(-t)!r}\n" for t in times)

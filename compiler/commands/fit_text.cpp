@@ -175,6 +175,12 @@ void report_findings(const Fit& fit, const std::vector<Recording>& recordings, D
         else if (fit.choices.reduction.shape == ShapeChoice::none)
           diagnostics.note<DiagnosticCode::fit_floor_remedy>({});
         break;
+      case Kind::left_above_noise:
+        diagnostics.report<DiagnosticCode::fit_left_above_noise>({}, error_text(n[0], fit, problem),
+                                                                 error_text(n[1], fit, problem));
+        if (fit.choices.contact_is_found && fit.choices.reduction.slips != SlipChoice::none)
+          diagnostics.note<DiagnosticCode::fit_found_surface_remedy>({});
+        break;
       case Kind::floor_not_certified: diagnostics.report<DiagnosticCode::fit_floor_not_certified>({}, n[0]); break;
       case Kind::slower_than_record:
         diagnostics.report<DiagnosticCode::fit_slower_than_record>({}, found.name, n[0], n[1]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/criterion.hpp"
 #include "linear/reach.hpp"
 
 namespace dashpot::compiler::fitting {
@@ -133,21 +134,17 @@ class Findings {
       add(Finding::Kind::floor_not_certified, "", {fit_.floor.largest_cosine});
     const bool is_linear =
         !fit_.model.curve && fit_.model.count(TermKind::stop) + fit_.model.count(TermKind::sliding) == 0;
-    const double neighbours = lag_one_of_floor();
-    if (is_linear && fit_.noise && is_felt(fit_.floor_rms) && fit_.floor_rms > 3 * *fit_.noise && neighbours > 0.5)
-      add(Finding::Kind::floor_above_noise, "", {fit_.floor_rms, *fit_.noise});
+    const Model& least = is_linear ? fit_.floor.model : fit_.model;
+    const double left = is_linear ? fit_.floor_rms : fit_.rms;
+    if (!fit_.noise || !is_felt(left) || left <= 3 * *fit_.noise) return;
+    if (!(lag_one_correlation(residual(problem_, least)) > 0.5)) return;
+    add(is_linear ? Finding::Kind::floor_above_noise : Finding::Kind::left_above_noise, "", {left, *fit_.noise});
   }
 
   // Compared with the force itself. Smaller residuals come from the digits of the file, or from the interpolation
   // between rows.
   bool is_felt(double left) const {
     return left > 1e-3 * problem_.target().norm() / std::sqrt(problem_.weighed_rows());
-  }
-
-  double lag_one_of_floor() const {
-    const VectorXd left = residual(problem_, fit_.floor.model);
-    const double power = left.squaredNorm();
-    return power > 0 ? left.head(left.size() - 1).dot(left.tail(left.size() - 1)) / power : 0;
   }
 
   std::string name_of(std::size_t term) const {

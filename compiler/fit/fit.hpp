@@ -55,6 +55,7 @@ struct Finding {
   enum class Kind {
     untouched,            // name: the file [from, to, force]
     floor_above_noise,    // [floor, noise]
+    left_above_noise,     // of a network that is not linear: [rms, noise]
     floor_not_certified,  // [cosine]
     slower_than_record,   // name [time, duration]
     faster_than_step,     // name [time, step]

@@ -201,6 +201,59 @@ class Wrapper(WasmTest):
         self.assertAlmostEqual(felt["estimate"], 1e-2, delta=2e-3)
         self.assertTrue(felt["damping"] > 0 and math.isfinite(felt["feltForce"]))
 
+    def spring(self, *choices):
+        """A spring that is tunable from 0 to 1/8 N m/rad, and a damper, compiled: its force at rest is stiffness times
+        position, exactly where both are powers of two."""
+        network = self.folder / "spring.json"
+        network.write_text(json.dumps({
+            "dashpot": 1, "name": "spring", "motion": "rotation",
+            "parameters": {"K": {"value": "0.0625 N m/rad", "tunable": True, "min": 0, "max": "0.125 N m/rad"}},
+            "network": {"parallel": [{"spring": "K"}, {"damper": "0.001 N m s/rad"}]}}))
+        self.dashpot("compile", network, "--target", "wasm", "-o", self.folder, *choices)
+
+    def test_a_motion_keeps_what_was_set(self):
+        """Fails if a motion that begins at rest elsewhere than at 0 has other parameters there than those that were
+        set, or if its first values are not a change under the load that is there, as they are in Python and in C."""
+        self.spring()
+        self.node("""
+          import { deepEqual } from 'node:assert/strict';
+          import { load } from './spring/index.js';
+          const law = await load(), still = new Float64Array(6).fill(0.25), forces = (force) => new Float64Array(6).fill(force);
+          for (const K of [0.125, 0.03125, 0]) {
+            law.reset();
+            law.set({ K });
+            deepEqual(law.simulate(still, null, { start: 0.25 }).force, forces(K * 0.25));
+            deepEqual(law.parameters, { K });
+          }
+          // What is stiffer from now on gets no force from nowhere.
+          deepEqual(law.simulate(still, null, { start: 0.25, values: { K: forces(0.125) } }).force, forces(0));
+          deepEqual(law.parameters, { K: 0.125 });
+          law.reset(0.25);
+          deepEqual(law.parameters, { K: 0.0625 });
+          deepEqual(law.simulate(still, null, { start: null }).force, forces(0.0625 * 0.25));
+        """)
+
+    def test_a_led_device_keeps_what_was_set(self):
+        """Fails if the law on a device that is led begins with other parameters than those that were set, or what is
+        felt of it in the end is not their spring's force, as exactly as the encoder shows where the tool is."""
+        self.spring("--device", PANTOGRAPH, "--uncertified")
+        step = 2 * math.pi / 65536  # of the pantograph's encoder [rad]
+        felt = json.loads(self.node("""
+          import { load } from './spring/index.js';
+          const law = await load(), felt = [];
+          for (const K of [0.125, 0.03125, 0]) {
+            law.set({ K });
+            law.leadFrom(0.25);
+            let now;
+            for (let k = 0; k < 3000; ++k) now = law.lead(0.25, 0);
+            felt.push([K, law.parameters.K, now.feltForce]);
+          }
+          console.log(JSON.stringify(felt));
+        """))
+        for stiffness, kept, force in felt:
+            self.assertEqual(kept, stiffness)
+            self.assertAlmostEqual(force, stiffness * 0.25, delta=stiffness * step)
+
     def test_types(self):
         """Fails if TypeScript does not find the types, or they let through what the module throws at."""
         self.dashpot("compile", TUNABLE, "--target", "wasm", "-o", self.folder)

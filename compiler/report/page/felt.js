@@ -21,6 +21,7 @@ function felt_of(law, motion, response, live, tunables) {
   const velocity = position.map((p, k) => (k + 1 < count ? (position[k + 1] - p) / live.period : 0));
   const f = { time: response.time, position, closed: live.form ? network_force(live.form, position, velocity, live.period) : response.force };
   for (const name of ['estimate', 'felt', 'damping', 'motor']) f[name] = new Float64Array(count);
+  law.renew();
   law.lead_from(position[0]);
   for (let k = 0; k < live.device.lead_in; ++k) law.lead(position[0], 0);  // at rest, until motor and brake have settled
   let present = null, errors = 0, forces = 0, worst = 0, most = 0;

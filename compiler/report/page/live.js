@@ -1,13 +1,14 @@
 // The response to a motion, by the emitted code.
 const most_samples = 2e6;
 
-// reset(0), then every sample in order, as `dashpot simulate` does.
+// At rest at 0, then every sample in order, as `dashpot simulate` does.
 function response_of(law, motion, live, tunables) {
   const count = motion.position.length, round = live.scalar === 'float' ? Math.fround : (v) => v;
   const r = { time: motion.time ?? Float64Array.from({ length: count }, (_, k) => k * live.period),
               position: motion.position.map(round), changed_at: tunables ? tunables.change_in(motion, live.period) : null,
               values: tunables ? tunables.values_over(motion, live.period) : null };
   for (const name of ['velocity', 'force', 'damping', 'motor', 'brake']) r[name] = new Float64Array(count);
+  law.renew();
   law.reset(0);
   let last = 0, present = null;
   for (let k = 0; k < count; ++k) {

@@ -346,6 +346,26 @@ class Pages(unittest.TestCase):
                     self.assertLess(worst, close, name)
                 self.assert_quiet()
 
+    def test_what_is_felt_begins_at_rest(self):
+        """Fails if a recording that begins elsewhere than at 0 is compared with a network that is torn there from 0,
+        where `dashpot run --motion` compares it with one at rest there: a network that is not linear errs then without
+        an error of the device. One that is held still answers with what it bears at rest."""
+        held = "time,position,velocity\n" + "".join(f"{k / 10000!r},0.006,0.1\n" for k in range(300))
+        for network in [FIG_5, self.write("fig_10.json", FIG_10), self.write("behind.json", BEHIND), *TUNABLE]:
+            with self.subTest(network=network.name):
+                self.open(network, "--device", PANTOGRAPH)
+                motion = self.upload(held)
+                self.wait_for("300 samples")
+                played = self.folder / "felt.csv"
+                subprocess.run([DASHPOT, "run", str(network), "--device", str(PANTOGRAPH), "--motion", str(motion),
+                                "-o", str(played)], capture_output=True, timeout=120, check=True)
+                here, there = [[float(row["closed_form"]) for row in csv.DictReader(io.StringIO(text))]
+                               for text in (self.browser.run(DOWNLOADED_FELT), played.read_text())]
+                self.assertEqual(len(here), len(there))
+                for a, b in zip(here, there):  # both are sums of few products
+                    self.assertAlmostEqual(a, b, delta=1e-14 * max(map(abs, there)))
+                self.assert_quiet()
+
     def test_networks_with_slips(self):
         """Fails if a network with slips has no page of its own, with what is linear left out and the loops drawn."""
         for name, text in {"fig_10": FIG_10, "coupled": COUPLED}.items():

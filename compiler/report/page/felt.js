@@ -1,8 +1,7 @@
 // What a hand that makes a motion feels on the described device, by the runtime's own encoder, estimator, delay, amplifier and
 // coil, against the network itself: `dashpot run --motion` without jitter.
 
-// Of a linear network, straight from sample to sample: k0 u + b∞ u̇ + Σ F, where F tends to B u̇. Another's is what the law
-// makes of the exact motion.
+// Of a linear network, straight from sample to sample: k0 u + b∞ u̇ + Σ F, where F tends to B u̇.
 function network_force(form, position, velocity, period) {
   const force = new Float64Array(position.length);
   const modes = form.modes.map(([rate, damping]) => ({ kept: Math.exp(-rate * period), gained: -Math.expm1(-rate * period) * damping, force: 0 }));
@@ -16,10 +15,16 @@ function network_force(form, position, velocity, period) {
   return force;
 }
 
+// At rest where the motion begins, as the device is. A network that is not linear is what the law makes of the exact motion.
+function force_without_device(law, motion, live, tunables, velocity) {
+  if (live.form) return network_force(live.form, motion.position, velocity, live.period);
+  return response_of(law, { ...motion, velocity: null }, live, tunables, motion.position[0]).force;
+}
+
 function felt_of(law, motion, response, live, tunables) {
   const position = motion.position, count = position.length;
   const velocity = position.map((p, k) => (k + 1 < count ? (position[k + 1] - p) / live.period : 0));
-  const f = { time: response.time, position, closed: live.form ? network_force(live.form, position, velocity, live.period) : response.force };
+  const f = { time: response.time, position, closed: force_without_device(law, motion, live, tunables, velocity) };
   for (const name of ['estimate', 'felt', 'damping', 'motor']) f[name] = new Float64Array(count);
   law.renew();
   law.lead_from(position[0]);

@@ -1,15 +1,15 @@
 // The response to a motion, by the emitted code.
 const most_samples = 2e6;
 
-// At rest at 0, then every sample in order, as `dashpot simulate` does.
-function response_of(law, motion, live, tunables) {
+// At rest at `start`, then every sample in order, as `dashpot simulate` does from 0.
+function response_of(law, motion, live, tunables, start = 0) {
   const count = motion.position.length, round = live.scalar === 'float' ? Math.fround : (v) => v;
   const r = { time: motion.time ?? Float64Array.from({ length: count }, (_, k) => k * live.period),
               position: motion.position.map(round), changed_at: tunables ? tunables.change_in(motion, live.period) : null,
               values: tunables ? tunables.values_over(motion, live.period) : null };
   for (const name of ['velocity', 'force', 'damping', 'motor', 'brake']) r[name] = new Float64Array(count);
   law.renew();
-  law.reset(0);
+  law.reset(start);
   let last = 0, present = null;
   for (let k = 0; k < count; ++k) {
     if (r.values && r.values(k) !== present) tunables.set(law, (present = r.values(k)));

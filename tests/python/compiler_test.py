@@ -29,6 +29,37 @@ class Compile(PackageTest):
         response = tissue.simulate(t, u, velocity=numpy.ones(len(u)))
         self.assertTrue(numpy.all(response.velocity == 1))
 
+    def test_rounded_times(self):
+        """Fails if times are refused that are uniform but for the digits that they are written with, where `dashpot
+        simulate` takes them, or for the type that holds them; if the rate is not the one that was meant; or if a gap
+        passes as rounding, or what is so coarse that it could be one."""
+        tissue = library.compile(FIG_5)
+        u, k = motion(300), numpy.arange(300)
+        for rate in [1000, 3000, 7000]:
+            exact = tissue.simulate(k / rate, u).force
+            rounded = numpy.round(k / rate, 6)
+            for t in [rounded, numpy.array([float(f"{t:.5g}") for t in k / rate + 1e-6])]:
+                numpy.testing.assert_array_equal(tissue.simulate(t, u).force, exact)
+                numpy.testing.assert_array_equal(self.simulated(FIG_5, {"time": t, "position": u})["force"], exact)
+            for t in [(k / rate).astype("f4"), rounded.astype("f4")]:
+                response = tissue.simulate(t, u)
+                self.assertEqual(response.time.dtype, numpy.float64)
+                numpy.testing.assert_array_equal(response.force, exact)
+            for t in [rounded, rounded.astype("f4")]:
+                with self.assertRaisesRegex(ValueError, "but for row 200"):
+                    tissue.simulate(numpy.delete(t, 200), u[1:])
+        t = 1.7e9 + k / 7000  # a double's last digits are as coarse
+        numpy.testing.assert_array_equal(tissue.simulate(t, u).force,
+                                         self.simulated(FIG_5, {"time": t, "position": u})["force"])
+        for t in [numpy.round(k / 3000, 4), (1e5 + k / 100).astype("f4")]:  # steps of 3 and 4 last digits, of 1 and 2
+            with self.assertRaisesRegex(ValueError, "one period throughout"):
+                tissue.simulate(t, u)
+        with self.assertRaisesRegex(ValueError, "t is at .* s in row 3; at a period of 0.000333.* s that row is at"):
+            tissue.simulate(numpy.round(k / 3000 - 1e-9 * k * (299 - k), 6), u)
+        fixed = library.compile(FIG_5, rate=3000)
+        numpy.testing.assert_array_equal(fixed.simulate(numpy.round(k / 3000, 6), u).force,
+                                         fixed.law().simulate(u).force)
+
     def test_choices(self):
         """Fails if a choice, a parameter or a device does not reach the command."""
         self.assertEqual(library.compile(FIG_5, rate=4000).law().step(0, 0).damping, 11)

@@ -8,6 +8,7 @@ path. A network or a device is a path, or a dictionary with what its file would 
 line, with underscores: `compile(network, rate=4000, set={"K1": "200 N/m"}, uncertified=True)`. What the command refuses
 is raised as `Refusal`, in its own words; what it warns of is a `Warned` warning.
 """
+import decimal
 import importlib.util
 import itertools
 import json
@@ -25,7 +26,9 @@ import numpy
 
 __all__ = ["Fit", "Network", "Refusal", "Simulated", "Warned", "compile", "explain", "fit"]
 
-_SAME_RATE = 1e-6  # relative, that a motion may differ by from the rate it is for, as in `dashpot simulate`
+# As in `dashpot simulate`:
+_SAME_RATE = 1e-6  # relative, that a motion may differ by from the rate it is for
+_COARSEST_SHARE = 0.1  # of the period, of a last digit that is allowed for
 _numbers = itertools.count()
 
 
@@ -101,22 +104,59 @@ class Simulated(NamedTuple):
     motor_force: numpy.ndarray
 
 
-def _rate_of(time) -> float:
-    """Of times at one period [Hz]."""
-    steps = numpy.diff(time)
-    if time.ndim != 1 or len(steps) == 0 or not numpy.all(steps > 0):
+class _Rate(NamedTuple):
+    """Of times at one period."""
+    meant: float  # a whole number, or that of a period with few digits, rather than the rounding of times [Hz]
+    period: float  # [s]
+    same: float  # relative, that another rate may differ by
+
+
+def _rate_with(period, error=0.0) -> _Rate:
+    """Of a period to which the times' rounding leaves an error."""
+    rate, same = 1 / period, max(_SAME_RATE, error / period)
+    whole = float(round(rate))
+    return _Rate(whole if whole and abs(rate - whole) <= same * rate else 1 / float(f"{period:.7g}"), period, same)
+
+
+def _last_digits(time):
+    """What 1 in the last digit of each is [s]: times are written with one number of decimals, or of digits."""
+    size = numpy.abs(time)
+    written = [decimal.Decimal(text).normalize().as_tuple() for text in size[size > 0].astype(str)]
+    first = numpy.log10(size, where=size > 0, out=numpy.full(len(size), -numpy.inf))
+    return 10.0 ** numpy.maximum(min(number.exponent for number in written),
+                                 numpy.floor(first) + 1 - max(len(number.digits) for number in written))
+
+
+def _rate_of(time) -> _Rate:
+    """As `dashpot simulate` finds it: steps are alike, or times are on a straight line but for the rounding of the type
+    that holds them, or of their digits as well, where that is a small share of the period."""
+    seconds = time.astype(numpy.float64)
+    steps = numpy.diff(seconds) if time.ndim == 1 else []
+    if len(steps) == 0 or not numpy.all(steps > 0):
         raise ValueError("t is no array of two rising times or more")
-    median = numpy.median(steps)
-    rounding = 2 * numpy.finfo(time.dtype).eps * numpy.max(numpy.abs(time))
-    wrong = numpy.abs(steps - median) > _SAME_RATE * median + rounding
-    if numpy.any(wrong):
-        row = int(numpy.argmax(wrong)) + 1
-        raise ValueError(f"t has steps of {median:g} s but for row {row}, {steps[row - 1]:g} s after the one before; "
-                         "one period throughout is expected")
-    period = (time[-1] - time[0]) / len(steps)
-    rate = 1 / period
-    nearest = float(round(rate))
-    return nearest if nearest and abs(rate - nearest) <= _SAME_RATE * rate else 1 / float(f"{period:.7g}")
+    median, rounding = numpy.median(steps), 4 * numpy.finfo(numpy.float64).eps * numpy.abs(seconds)
+
+    def off_step(allowance):
+        return numpy.flatnonzero(numpy.abs(steps - median) > _SAME_RATE * median + rounding[1:] + allowance) + 1
+
+    period = (seconds[-1] - seconds[0]) / len(steps)
+    if len(off_step(0)) == 0:
+        return _rate_with(period)
+    line, held, allowance = seconds[0] + period * numpy.arange(len(seconds)), numpy.spacing(numpy.abs(time)), 0
+    for units in [held, held + _last_digits(time)]:
+        unit = max(units[0], units[-1])
+        if unit <= _COARSEST_SHARE * median:
+            off_line = numpy.flatnonzero(numpy.abs(seconds - line) > (unit + units) / 2 + rounding)
+            if len(off_line) == 0:
+                return _rate_with(period, unit / len(steps))
+            allowance = unit
+    gaps = off_step(allowance)
+    if len(gaps) > 0:
+        raise ValueError(f"t has steps of {median:g} s but for row {gaps[0]}, {steps[gaps[0] - 1]:g} s after the one "
+                         "before; one period throughout is expected")
+    row = off_line[0]
+    raise ValueError(f"t is at {seconds[row]:.9g} s in row {row}; at a period of {period:.9g} s that row is at "
+                     f"{line[row]:.9g} s")
 
 
 class Network:
@@ -148,13 +188,13 @@ class Network:
         return module
 
     def _at(self, rate):
-        for known, package in self._packages.items():
-            if abs(known / rate - 1) <= _SAME_RATE:
-                return package
         if self._fixed:
-            raise ValueError(f"t is at {rate:g} Hz, and the law is for a loop at {self.rate:g} Hz")
-        package = self._packages[rate] = self._compiled(["--rate", repr(rate)])
-        return package
+            if abs(self.rate * rate.period - 1) > rate.same:
+                raise ValueError(f"t is at {1 / rate.period:g} Hz, and the law is for a loop at {self.rate:g} Hz")
+            return self.package
+        if rate.meant not in self._packages:
+            self._packages[rate.meant] = self._compiled(["--rate", repr(rate.meant)])
+        return self._packages[rate.meant]
 
     def law(self):
         """A law at rest, for step() and set()."""
@@ -172,13 +212,15 @@ class Network:
     def simulate(self, t, u, velocity=None, values=None) -> Simulated:
         """The law, at rest at 0, led along the positions `u` at the times `t`, all at one period. Without velocities
         each is the difference to the row before over the period. `values` has arrays of parameters by name."""
-        time = numpy.asarray(t, dtype=numpy.float64)
+        time = numpy.asarray(t)
+        if time.dtype not in (numpy.float64, numpy.float32):
+            time = time.astype(numpy.float64)
         law = self._at(_rate_of(time)).Law()
         position = numpy.asarray(u)
         if position.shape != time.shape:
             raise ValueError(f"u has the shape {position.shape}, and t {time.shape}")
         response = law.simulate(position, velocity, values=values)
-        return Simulated(time, position, *response)
+        return Simulated(time.astype(numpy.float64), position, *response)
 
 
 def compile(network, *, device=None, **options) -> Network:

@@ -60,6 +60,26 @@ class Compile(PackageTest):
         numpy.testing.assert_array_equal(fixed.simulate(numpy.round(k / 3000, 6), u).force,
                                          fixed.law().simulate(u).force)
 
+    def test_times_with_a_unit(self):
+        """Fails if times that know their unit are read as seconds whatever that is, or what is no time is not called
+        one."""
+        tissue = library.compile(FIG_5)
+        u, k = motion(300), numpy.arange(300)
+        wanted = tissue.simulate(k / 1000, u)
+        for t in [k * numpy.timedelta64(1, "ms"), k * numpy.timedelta64(1000000, "ns")]:
+            response = tissue.simulate(t, u)
+            numpy.testing.assert_array_equal(response.time, k / 1000)
+            numpy.testing.assert_array_equal(response.force, wanted.force)
+        for t in [numpy.datetime64("2026-01-01", "ms") + k, k * numpy.timedelta64(1, "M"), k * numpy.timedelta64(1)]:
+            with self.assertRaisesRegex(ValueError, "t is of type .*; numbers of seconds are expected"):
+                tissue.simulate(t, u)
+        for wrong in [numpy.inf, -numpy.inf, numpy.nan]:
+            for row in [0, 7, 299]:
+                t = k / 1000
+                t[row] = wrong
+                with self.assertRaisesRegex(ValueError, f"t is {wrong} in row {row}; a finite time is expected"):
+                    tissue.simulate(t, u)
+
     def test_choices(self):
         """Fails if a choice, a parameter or a device does not reach the command."""
         self.assertEqual(library.compile(FIG_5, rate=4000).law().step(0, 0).damping, 11)

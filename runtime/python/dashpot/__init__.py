@@ -104,6 +104,17 @@ class Simulated(NamedTuple):
     motor_force: numpy.ndarray
 
 
+def _seconds(t):
+    """The times as numbers of the type that they have, where it is one of single or double precision."""
+    time = numpy.asarray(t)
+    if time.dtype.kind == "M" or time.dtype.kind == "m" and numpy.datetime_data(time.dtype)[0] in {"Y", "M", "generic"}:
+        raise ValueError(f"t is of type {time.dtype}; numbers of seconds are expected, or a timedelta64 whose unit is "
+                         "always as long")
+    if time.dtype.kind == "m":
+        return time / numpy.timedelta64(1, "s")
+    return time if time.dtype in (numpy.float64, numpy.float32) else time.astype(numpy.float64)
+
+
 class _Rate(NamedTuple):
     """Of times at one period."""
     meant: float  # a whole number, or that of a period with few digits, rather than the rounding of times [Hz]
@@ -130,6 +141,9 @@ def _last_digits(time):
 def _rate_of(time) -> _Rate:
     """As `dashpot simulate` finds it: steps are alike, or times are on a straight line but for the rounding of the type
     that holds them, or of their digits as well, where that is a small share of the period."""
+    wrong = numpy.flatnonzero(~numpy.isfinite(time))
+    if len(wrong) > 0:
+        raise ValueError(f"t is {time.flat[wrong[0]]} in row {wrong[0]}; a finite time is expected")
     seconds = time.astype(numpy.float64)
     steps = numpy.diff(seconds) if time.ndim == 1 else []
     if len(steps) == 0 or not numpy.all(steps > 0):
@@ -210,11 +224,10 @@ class Network:
         return self.package.explain()
 
     def simulate(self, t, u, velocity=None, values=None) -> Simulated:
-        """The law, at rest at 0, led along the positions `u` at the times `t`, all at one period. Without velocities
-        each is the difference to the row before over the period. `values` has arrays of parameters by name."""
-        time = numpy.asarray(t)
-        if time.dtype not in (numpy.float64, numpy.float32):
-            time = time.astype(numpy.float64)
+        """The law, at rest at 0, led along the positions `u` at the times `t`, in seconds or as timedelta64, all at
+        one period. Without velocities each is the difference to the row before over the period. `values` has arrays of
+        parameters by name."""
+        time = _seconds(t)
         law = self._at(_rate_of(time)).Law()
         position = numpy.asarray(u)
         if position.shape != time.shape:

@@ -14,6 +14,21 @@ ZENER = {"dashpot": 1, "name": "zener",
                                   {"series": [{"spring": numpy.float64(150)}, {"damper": "45 N s/m"}]}]}}
 
 
+def pressed():
+    """A recording of a spring and a damper, with noise."""
+    t = numpy.arange(600) * 5e-3
+    u = numpy.interp(t, [0, 0.5, 1, 2, 2.5, 3], [0, 0, 3e-3, 3e-3, 0, 0])
+    f = 100 * u + 2 * numpy.gradient(u, t) + numpy.random.default_rng(0).normal(0, 1e-3, len(t))
+    return {"time [s]": t, "position [m]": u, "force [N]": f}
+
+
+def fit_of(*recordings, **options):
+    """What `dashpot fit --json` says, and the network; that all is recorded at one speed is of no interest."""
+    with warnings.catch_warnings(record=True):
+        fit = library.fit(*recordings, **options)
+    return {**fit.report, "network": fit.network["network"]}
+
+
 class Compile(PackageTest):
     def test_simulate(self):
         """Fails if a network led along a motion does not give what `dashpot simulate` prints, at the motion's own
@@ -168,6 +183,15 @@ class Fit(PackageTest):
         self.assertAlmostEqual(fitted.report["rms"], 1e-3, delta=1e-4)  # the noise
         with self.assertRaisesRegex(ValueError, "different lengths"):
             library.fit({"time [s]": t, "force [N]": f[1:]})
+
+    def test_names_of_columns(self):
+        """Fails if a column cannot be called by what a table holds between quotes alone."""
+        recording = pressed()
+        wanted = fit_of(recording)["network"]
+        t, u, f = recording.values()
+        self.assertEqual(fit_of({"time [s]": t, "position, of the tool [m]": u, "force [N]": f},
+                                columns="position=2:m")["network"], wanted)
+        self.assertEqual(fit_of({'"read", by hand': f, **recording})["network"], wanted)
 
 
 if __name__ == "__main__":

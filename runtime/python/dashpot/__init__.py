@@ -8,6 +8,7 @@ path. A network or a device is a path, or a dictionary with what its file would 
 line, with underscores: `compile(network, rate=4000, set={"K1": "200 N/m"}, uncertified=True)`. What the command refuses
 is raised as `Refusal`, in its own words; what it warns of is a `Warned` warning.
 """
+import csv
 import decimal
 import importlib.util
 import itertools
@@ -262,10 +263,10 @@ def _recording(recording, folder, number) -> str:
     columns = dict((name, numpy.asarray(values, dtype=numpy.float64)) for name, values in recording.items())
     if len(set(values.shape for values in columns.values())) != 1:
         raise ValueError("the columns of a recording have different lengths")
-    with open(path, "w", encoding="utf-8") as table:
-        table.write(",".join(columns) + "\n")
-        for row in zip(*(values.tolist() for values in columns.values())):
-            table.write(",".join(map(repr, row)) + "\n")
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(columns)
+        table.writerows(zip(*(values.tolist() for values in columns.values())))
     return str(path)
 
 

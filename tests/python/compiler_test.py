@@ -193,6 +193,19 @@ class Fit(PackageTest):
                                 columns="position=2:m")["network"], wanted)
         self.assertEqual(fit_of({'"read", by hand': f, **recording})["network"], wanted)
 
+    def test_hold_out(self):
+        """Fails if a recording that is held out is not taken as one that is fitted is, alone or among others."""
+        recording = pressed()
+        stiffer = {**recording, "force [N]": 1.5 * recording["force [N]"]}
+        path = self.folder / "stiffer.csv"
+        numpy.savetxt(path, numpy.column_stack(list(stiffer.values())), delimiter=",", header=",".join(stiffer),
+                      comments="")
+        wanted = fit_of(recording)
+        for held_out, count in [(path, 1), (stiffer, 1), ([stiffer, path], 2), ((stiffer, stiffer), 2)]:
+            report = fit_of(recording, hold_out=held_out)
+            self.assertEqual(report["network"], wanted["network"])
+            self.assertEqual([one["rows"] for one in report["held_out"]], [len(stiffer["time [s]"])] * count)
+
 
 if __name__ == "__main__":
     unittest.main()

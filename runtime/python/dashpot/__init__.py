@@ -255,11 +255,11 @@ class Fit(NamedTuple):
     report: dict  # what `dashpot fit --json` says
 
 
-def _recording(recording, folder, number) -> str:
+def _recording(recording, folder, name) -> str:
     """The path of a recording; columns by name, in SI units, are written into a table first."""
     if not hasattr(recording, "items"):
         return os.fspath(recording)
-    path = folder.path / f"recording{number}.csv"
+    path = folder.path / f"{name}.csv"
     columns = dict((name, numpy.asarray(values, dtype=numpy.float64)) for name, values in recording.items())
     if len(set(values.shape for values in columns.values())) != 1:
         raise ValueError("the columns of a recording have different lengths")
@@ -270,12 +270,15 @@ def _recording(recording, folder, number) -> str:
     return str(path)
 
 
-def fit(*recordings, **options) -> Fit:
+def fit(*recordings, hold_out=None, **options) -> Fit:
     """A network fitted to recordings: paths of tables, or dictionaries of arrays whose names say what they are, with
-    units, as {"time [s]": t, "position [m]": u, "force [N]": f}."""
+    units, as {"time [s]": t, "position [m]": u, "force [N]": f}. `hold_out` has one or several that are predicted and
+    not fitted."""
     folder = _Folder()
-    tables = [_recording(recording, folder, number) for number, recording in enumerate(recordings)]
+    several = hold_out if isinstance(hold_out, (list, tuple)) else [] if hold_out is None else [hold_out]
+    fitted, held_out = ([_recording(recording, folder, f"{what}{number}") for number, recording in enumerate(those)]
+                        for what, those in [("recording", recordings), ("held_out", several)])
     output = folder.path / "fitted.json"
-    report = json.loads(_call("fit", *tables, *_words(dict({"name": "fitted"}, **options)), "--json", "-o",
-                              str(output)))
+    report = json.loads(_call("fit", *fitted, *_words(dict({"name": "fitted"}, **options, hold_out=held_out)), "--json",
+                              "-o", str(output)))
     return Fit(json.loads(output.read_text(encoding="utf-8")), report)

@@ -130,6 +130,8 @@ class Compile(PackageTest):
         law = tissue.law()
         law.set(**{name: parameter.max})
         self.assertEqual(law.parameters[name], parameter.max)
+        with self.assertRaisesRegex(TypeError, "^second_order_maxwell_tunable has no parameter 'softness'; it has K1"):
+            law.set(softness=1)
 
     def test_refusals(self):
         """Fails if what the command refuses is not raised in its words, or a wrong motion is taken for a right one."""

@@ -254,6 +254,23 @@ class Wrapper(WasmTest):
             self.assertEqual(kept, stiffness)
             self.assertAlmostEqual(force, stiffness * 0.25, delta=stiffness * step)
 
+    def test_a_led_device_refuses_what_is_no_motion(self):
+        """Fails if a device is led to where nothing is, or if it has noticed when that was refused."""
+        self.spring("--device", PANTOGRAPH, "--uncertified")
+        self.node("""
+          import { deepEqual, throws } from 'node:assert/strict';
+          import { load } from './spring/index.js';
+          const one = await load(), other = await load();
+          one.leadFrom(0.1);
+          other.leadFrom(0.1);
+          for (const wrong of [NaN, Infinity, -Infinity, undefined, '0.1']) {
+            throws(() => one.leadFrom(wrong), { name: 'RangeError', message: `position is ${wrong}; a finite number is expected` });
+            throws(() => one.lead(wrong, 0), { name: 'RangeError', message: `position is ${wrong}; a finite number is expected` });
+            throws(() => one.lead(0.1, wrong), { name: 'RangeError', message: `velocity is ${wrong}; a finite number is expected` });
+            deepEqual(one.lead(0.1, 0), other.lead(0.1, 0));
+          }
+        """)
+
     def test_types(self):
         """Fails if TypeScript does not find the types, or they let through what the module throws at."""
         self.dashpot("compile", TUNABLE, "--target", "wasm", "-o", self.folder)

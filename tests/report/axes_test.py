@@ -276,6 +276,23 @@ class Dragged(Pages):
         self.assertEqual([self.number(name) for name in ("hand", "heat", "given")], [0, 0, 0])
         self.assertEqual((self.browser.log("browser"), self.browser.requested()), ([], []))
 
+    def test_small_numbers_stay_whole(self):
+        """Fails if a number beside the map is broken between its digits, or runs out of its column: 10⁻¹¹ in two lines
+        is 10⁻¹ with a 1 below it."""
+        network = self.folder / "weak.json"
+        network.write_text(FIELD.read_text().replace("100 N/m", "5e-8 N/m"))
+        self.open(network, PANTOGRAPH)
+        shown = self.browser.run("""
+          return [...document.querySelectorAll('#felt dd')].map((dd) => {
+            const number = dd.querySelector('span');
+            const [line, ...others] = number.getClientRects();
+            return [number.textContent, others.length, line.right - dd.getBoundingClientRect().right];
+          });""")
+        self.assertTrue(any(re.fullmatch("−[0-9.]{4}×10⁻¹[⁰¹²]", text) for text, *_ in shown), shown)
+        for text, more_lines, beyond in shown:
+            self.assertEqual(more_lines, 0, text)
+            self.assertLessEqual(beyond, 0, text)
+
     def test_the_law_is_what_simulate_runs(self):
         """Fails if the page's law is another one, in either type of numbers, of a ball, a contact that damps, or a
         field."""

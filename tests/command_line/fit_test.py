@@ -223,7 +223,8 @@ int main() {
                 (brain, {"fit-faster-than-step", "fit-few-rows"}),
                 (ADHESIVE, {"fit-floor-above-noise", "fit-assumed-start"}),
                 ([*ADHESIVE, "--slips", "2", "--modes", "2", "--gain-per-file"],
-                 {"fit-left-above-noise", "fit-slips-or-softening", "fit-no-intervals", "fit-unstable-left-out", "fit-gains-fitted"})):
+                 {"fit-left-above-noise", "fit-slips-or-softening", "fit-no-intervals", "fit-unstable-left-out",
+                  "fit-gains-fitted"})):
             with self.subTest(words[0]):
                 is_refused = words == ["nothing.csv"] or "9 mm" in words
                 done = self.fit(*words, status=INPUT_REFUSED if is_refused else 0)

@@ -145,6 +145,25 @@ class Hal(unittest.TestCase):
                 self.assertGreater(words[6], 0.001)
             self.assertEqual(words[-4:], safe, out)
 
+    def test_begins_at_rest_where_the_tool_is(self):
+        """Fails if what the law felt before, or a position that was NaN while `enable` was false, is felt as a kick
+        when `enable` becomes true."""
+        name = LAWS[0][2]
+        pins = name.replace("_", "-") + ".0"
+        def sampled(position, enable):
+            """Both at once for the next sample, and time for some hundred more."""
+            return ["stop", f"setp {pins}.position {position}", f"setp {pins}.enable {enable}", "start",
+                    "loadusr -w sleep 0.25"]
+        watched = self.outputs(name, "fault-code", "force")
+        out = self.run_hal(
+            ["loadrt threads name1=servo period1=1000000", f"loadrt {name}", f"addf {pins}.output servo",
+             f"addf {pins}.update servo", *sampled(0, 1), *sampled("nan", 1), *watched, *sampled("nan", 0),
+             *sampled(0.02, 1), *watched, *sampled(0.02, 0), *sampled("nan", 1), *watched, *sampled("nan", 0),
+             *sampled(0.04, 0), *sampled(0.06, 1), *watched])
+        static_stiffness = 5  # N/m, of the spring that is in parallel with all others
+        self.assertEqual(self.values(out),
+                         [2, 0, 0, 0.02 * static_stiffness, 2, 0, 0, 0.06 * static_stiffness], out)
+
     def test_the_example(self):
         """Fails if the rig of examples/linuxcnc does not start, its tool rests, or its currents are not those of force
         and damping."""

@@ -323,7 +323,7 @@ static inline double law_second_order_maxwell_stored_energy(const law_second_ord
 
 typedef struct {
   law_second_order_maxwell law;
-  int has_begun;
+  int has_begun, was_enabled;
 } law_second_order_maxwell_instance;
 
 #undef FUNCTION
@@ -332,13 +332,15 @@ typedef struct {
 FUNCTION(output) {
   law_second_order_maxwell_instance *here = __comp_inst->_data;
   const double position = (double)*__comp_inst->position, velocity = (double)*__comp_inst->velocity;
-  const int is_first = here->has_begun == 0;
+  const int is_first = here->has_begun == 0, is_enabled = *__comp_inst->enable != 0;
   dashpot_command command = {__comp_inst->safe_damping, 0.0};
   if (is_first) law_second_order_maxwell_init(&here->law);
   here->has_begun = 1;
   law_second_order_maxwell_update(&here->law);  // where the function of that name has not run
-  if (is_first || !*__comp_inst->enable) law_second_order_maxwell_reset(&here->law, position);
-  if (!*__comp_inst->enable) {
+  // Not before this sample: the position of one before it may have been NaN.
+  if (is_enabled && !here->was_enabled) law_second_order_maxwell_reset(&here->law, position);
+  here->was_enabled = is_enabled;
+  if (!is_enabled) {
     *__comp_inst->fault_code = 0;
   } else if (*__comp_inst->fault_code == 0) {
     if (period < 1000000 - 1 || period > 1000000 + 1) {

@@ -52,12 +52,13 @@ std::string hal_name(std::string name) {
   return name.starts_with("hal-") ? name.substr(4) : name;
 }
 
-// What stands in a string of a .comp file, which is one of Python and becomes a line of a manual page.
+// What stands in a string of a .comp file, which is one of Python and becomes a line of a manual page. halcompile ends
+// it at the next quote, whatever is before that.
 std::string in_quotes(const std::string& text) {
   std::string result;
   for (const char c : text) {
     if (c == '\\') result += "\\\\\\\\";
-    else if (c == '"') result += "\\\"";
+    else if (c == '"') result += "\\x22";
     else result += c;
   }
   return result;

@@ -2,6 +2,7 @@
 
 The environment names DASHPOT (the executable), DASHPOT_SOURCE (this repository) and CC.
 """
+import json
 import os
 import pathlib
 import re
@@ -193,6 +194,21 @@ class Hal(unittest.TestCase):
         for pin in ["position", "velocity", "enable", "damping", "force", "fault", "fault-code", "safe-damping",
                     "output", "update"]:
             self.assertIn(pin, page)
+
+    def test_quotes_and_backslashes_of_a_network(self):
+        """Fails if a quote or a backslash in a network's title or source ends a string of the component, or is not
+        what the manual page says."""
+        name = "dp_test_quotes"
+        quoted = 'a "b", a \\ and """c"'
+        network = {"dashpot": 1, "name": name, "title": quoted, "source": quoted, "network": {"spring": "5 N/m"}}
+        (self.folder / "quotes.json").write_text(json.dumps(network))
+        told(DASHPOT, "compile", "quotes.json", "--target", "hal", cwd=self.folder)
+        told("halcompile", "--compile", f"{name}.comp", cwd=self.folder)
+        told("halcompile", "--document", "-o", "quotes.9", f"{name}.comp", cwd=self.folder)
+        lines = (self.folder / "quotes.9").read_text().splitlines()
+        in_roff = quoted.replace("\\", "\\\\")
+        self.assertIn(f"{name} \\- {in_roff}", lines)
+        self.assertIn(f"source: {in_roff}", lines)
 
 
 if __name__ == "__main__":

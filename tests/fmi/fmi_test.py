@@ -277,6 +277,19 @@ class Units(unittest.TestCase):
             self.assertEqual(unit.derivatives(["time"], ["position"], [1.0]), ERROR)
             self.assertEqual(unit.derivatives(["force"], ["force"], [1.0]), ERROR)
 
+    def test_derivatives_before_the_start(self):
+        """Fails if in Initialization Mode, where the law rests wherever the position is set, the derivatives are others
+        than those of the outputs there, as of a tool that moves within one sample."""
+        for name, static_stiffness in [("linear", 5), ("narrow", 5), ("turning", 2)]:  # the spring beside all others
+            for version in (2, 3):
+                unit = self.instance(self.units[name, version])
+                self.assertEqual(unit.enter(), OK)
+                for seed in [(1.0, 0.0), (0.0, 1.0), (-4.0, 0.5)]:
+                    unit.set(position=seed[0], velocity=seed[1])  # at rest at 0 the force is 0
+                    self.assertEqual(unit.derivatives(["damping", "force"], ["position", "velocity"], seed),
+                                     (0, unit.get("force")[0]))
+                self.assertEqual(unit.derivatives(["force"], ["position"], [1.0]), (static_stiffness,))
+
     def test_parameters(self):
         """Fails if a parameter is taken beyond its range, what is refused moves one, or one that is set before the
         start comes late."""

@@ -298,7 +298,9 @@ class Units(unittest.TestCase):
             self.assertEqual((unit.get("K1"), unit.set(K1=300.0), unit.get("K1")), ((200,), OK, (300,)))
             self.assertEqual(unit.enter(), OK)
             self.assertEqual(unit.set(K1=1000.0, position=0.01), WARNING)
-            self.assertIn("a parameter is beyond its range", unit.said[-1][2])
+            status, category, message = unit.said[-1]
+            self.assertEqual((status, category), (WARNING, b"logStatusWarning"))
+            self.assertIn("a parameter is beyond its range", message)
             self.assertEqual(unit.get("K1"), (800,))
             self.assertEqual(unit.call("ExitInitializationMode"), OK)
             at_rest = unit.get("force")[0]
@@ -309,6 +311,17 @@ class Units(unittest.TestCase):
             self.assertEqual(unit.get("K1"), (50,))
             self.assertEqual(unit.call("Reset"), OK)
             self.assertEqual(unit.get("K1"), (200,))
+
+    def test_categories_of_messages(self):
+        """Fails if a message has a category that the description does not name, one of these is refused, or another is
+        taken."""
+        for name, fmu in self.each_unit():
+            unit = self.instance(fmu)
+            named = [category.get("name").encode() for category in fmu.description.iter("Category")]
+            self.assertEqual(unit.debug_logging(True, named), OK)
+            self.assertEqual(unit.debug_logging(True, [b"logEvents"]), ERROR)
+            self.assertEqual([said[:2] for said in unit.said], [(ERROR, b"logStatusError")])
+            self.assertEqual(set(named), {b"logStatusError", b"logStatusWarning"})
 
     def test_calls_out_of_turn(self):
         """Fails if a unit steps before its start or after its end, answers what it has not or takes NaN or infinity."""

@@ -80,6 +80,11 @@ class Instance:
         function.restype = None
         function(ctypes.c_void_p(self.pointer))
 
+    def debug_logging(self, on, categories):
+        count = ctypes.c_size_t(len(categories))
+        flag = ctypes.c_bool(on) if self.fmu.version == 3 else int(on)
+        return self.call("SetDebugLogging", flag, count, numbers(categories, ctypes.c_char_p))
+
     def begin(self, start=0.0):
         """To the phase of steps; what is set in between is for the caller."""
         self.enter(start)

@@ -103,7 +103,6 @@ CodeModel source_model(const Compilation& c, FmiVersion version, std::string law
   Fields file;
   describe_file(c, file);
   model.fields["title"] = file["title"];
-  if (version == FmiVersion::two) model.fields["name"] = c.network.name;
   model.lists["source"] = as_one_entry(std::move(law));
   model.lists["core"] = as_one_entry(std::move(core));
   FmiFunctions functions = unused_functions(version);

@@ -372,6 +372,17 @@ class Units(unittest.TestCase):
                 for one in made:
                     one.free()
 
+    def test_names_of_instances(self):
+        """Fails if a message does not say from which instance it comes, where there are two, or a name that is longer
+        than its place is cut within a character or written beyond it."""
+        fmu = self.units["linear", 2]
+        for name, said in [(b"left", b"left"), (b"right", b"right"), (b"x" * 1000, b"x" * 255),
+                           (("x" + "ä" * 200).encode(), ("x" + "ä" * 127).encode()),
+                           (("ä" * 200).encode(), ("ä" * 127).encode()), (b"\x80" * 300, b"")]:
+            unit = self.instance(fmu, name=name)
+            self.assertEqual(unit.step(0.0, PERIOD), ERROR)
+            self.assertEqual(unit.speakers, [said])
+
     def test_the_source_inside(self):
         """Fails if the source in the archive does not compile where the strictest read it, or makes a library of other
         bits, also where multiplications and additions can be one."""

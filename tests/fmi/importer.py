@@ -47,10 +47,10 @@ class Fmu:
 
 
 class Instance:
-    """One of a unit. Whatever it says is kept in `said`."""
+    """One of a unit. Whatever it says is kept in `said`, and by whose name it says it, in FMI 2, in `speakers`."""
 
-    def __init__(self, fmu, token=None, kind="CoSimulation"):
-        self.fmu, self.said = fmu, []
+    def __init__(self, fmu, token=None, kind="CoSimulation", name=b"one"):
+        self.fmu, self.said, self.speakers = fmu, [], []
         token = (fmu.token if token is None else token).encode()
         library = fmu.library
         if fmu.version == 3:
@@ -58,19 +58,24 @@ class Instance:
                 (status, category, message.decode())))
             create = getattr(library, f"fmi3Instantiate{kind}")
             create.restype = ctypes.c_void_p
-            head = (b"one", token, None, ctypes.c_bool(False), ctypes.c_bool(True))
+            head = (name, token, None, ctypes.c_bool(False), ctypes.c_bool(True))
             tail = (None, self.log, None, None, None)
             between = (ctypes.c_bool(False), ctypes.c_bool(False), None,
                        ctypes.c_size_t(0)) if kind == "CoSimulation" else ()
             self.pointer = create(*head, *between, *tail)
         else:
-            self.log = LOG2(lambda environment, name, status, category, message: self.said.append(
-                (status, category, message.decode())))
+            def log(environment, speaker, status, category, message):
+                self.said.append((status, category, message.decode()))
+                self.speakers.append(speaker)
+
+            self.log = LOG2(log)
             self.callbacks = Callbacks2(self.log, None, None, None, None)
             create = library.fmi2Instantiate
             create.restype = ctypes.c_void_p
-            self.pointer = create(b"one", 1 if kind == "CoSimulation" else 0, token, None, ctypes.byref(self.callbacks),
+            given = ctypes.create_string_buffer(name)
+            self.pointer = create(given, 1 if kind == "CoSimulation" else 0, token, None, ctypes.byref(self.callbacks),
                                   0, 1)
+            ctypes.memset(given, 0, len(given))  # it is the unit's during the call alone
 
     def call(self, name, *arguments):
         return self.fmu.call(name, ctypes.c_void_p(self.pointer), *arguments)

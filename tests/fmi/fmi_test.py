@@ -207,6 +207,18 @@ class Units(unittest.TestCase):
             self.assertEqual([unit.get("damping", "force")], self.played(other, [(0.002, 0.01)] * 3, 20)[-1:])
             self.assertEqual(unit.get("time"), (0.023,))
 
+    def test_where_a_step_begins(self):
+        """Fails if a step that begins within half a period of where the last has ended is refused, as that of a host
+        whose sums of times drift, or one that begins farther away is taken."""
+        for version in (2, 3):
+            unit = self.instance(self.units["linear", version])
+            self.assertEqual(unit.begin(2.0), OK)
+            for k, off in enumerate([-0.49, 0.49, -0.49]):
+                end = 2.0 + k * PERIOD
+                for too_far in (-0.51, 0.51):
+                    self.assertEqual(unit.step(end + too_far * PERIOD, PERIOD), ERROR)
+                self.assertEqual(unit.step(end + off * PERIOD, PERIOD), OK, unit.said)
+
     def test_a_day_of_steps_whose_times_are_summed_up(self):
         """Fails if an importer that adds up its times is refused after a while, for their rounding."""
         unit = self.started(self.units["linear", 3])

@@ -341,6 +341,25 @@ class Units(unittest.TestCase):
             discards = {b"logStatusDiscard"} if fmu.version == 3 else set()
             self.assertEqual(set(named), {b"logStatusError", b"logStatusWarning"} | discards)
 
+    def test_messages_that_are_asked_for(self):
+        """Fails if a warning or a discarded step is told of to a host that has not asked for it, or not to one that
+        has, or an error is kept from anyone."""
+        for version in (2, 3):
+            unit = self.instance(self.units["tunable", version], logging=False)
+            self.assertEqual(unit.begin(), OK)
+            others = [WARNING, DISCARD] if version == 3 else [WARNING]
+            for on, categories, told in [(None, [], []), (True, [b"logStatusError"], []),
+                                         (True, [b"logStatusWarning"], [WARNING]), (True, [], others),
+                                         (False, [b"logStatusWarning"], others[1:]), (False, [], [])]:
+                if on is not None:
+                    self.assertEqual(unit.debug_logging(on, categories), OK)
+                unit.said.clear()
+                self.assertEqual(unit.set(K1=1e6), WARNING)
+                self.assertEqual(unit.step(0.0, 1.5 * PERIOD), DISCARD if version == 3 else ERROR)
+                self.assertEqual(unit.step(1.0, PERIOD), ERROR)
+                self.assertEqual([status for status, _, _ in unit.said if status != ERROR], told)
+                self.assertEqual(unit.said[-1][0], ERROR)
+
     def test_calls_out_of_turn(self):
         """Fails if a unit steps before its start or after its end, answers what it has not or takes NaN or infinity."""
         for name, fmu in self.each_unit():

@@ -49,7 +49,7 @@ class Fmu:
 class Instance:
     """One of a unit. Whatever it says is kept in `said`, and by whose name it says it, in FMI 2, in `speakers`."""
 
-    def __init__(self, fmu, token=None, kind="CoSimulation", name=b"one"):
+    def __init__(self, fmu, token=None, kind="CoSimulation", name=b"one", logging=True):
         self.fmu, self.said, self.speakers = fmu, [], []
         token = (fmu.token if token is None else token).encode()
         library = fmu.library
@@ -58,7 +58,7 @@ class Instance:
                 (status, category, message.decode())))
             create = getattr(library, f"fmi3Instantiate{kind}")
             create.restype = ctypes.c_void_p
-            head = (name, token, None, ctypes.c_bool(False), ctypes.c_bool(True))
+            head = (name, token, None, ctypes.c_bool(False), ctypes.c_bool(logging))
             tail = (None, self.log, None, None, None)
             between = (ctypes.c_bool(False), ctypes.c_bool(False), None,
                        ctypes.c_size_t(0)) if kind == "CoSimulation" else ()
@@ -74,7 +74,7 @@ class Instance:
             create.restype = ctypes.c_void_p
             given = ctypes.create_string_buffer(name)
             self.pointer = create(given, 1 if kind == "CoSimulation" else 0, token, None, ctypes.byref(self.callbacks),
-                                  0, 1)
+                                  0, int(logging))
             ctypes.memset(given, 0, len(given))  # it is the unit's during the call alone
 
     def call(self, name, *arguments):

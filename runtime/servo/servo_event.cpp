@@ -41,6 +41,7 @@ std::string evidence(const fault_report& report, motion joint) {
       return std::string("the device answers '") + name_of(static_cast<device_status>(report.seen)) + "'" +
              (report.cause != nullptr ? std::string(": ") + report.cause : std::string());
     case fault::position_not_finite: return "the device reads " + digits_of(report.seen);
+    case fault::report_not_finite: return "the device says that it applies " + digits_of(report.seen);
     case fault::position_out_of_range:
       return with_unit(report.seen, position) + " is beyond " + with_unit(report.limit, position);
     case fault::encoder_jump:

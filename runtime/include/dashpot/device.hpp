@@ -23,7 +23,8 @@ struct actuation {
 };
 
 // The newest command that was in force at a sample, after the device's own limits. A device that fills it in lets the
-// loop confirm that it was left safe, count what the device clips, and reckon the energy with what was applied.
+// loop confirm that it was left safe, count what the device clips, and reckon the energy with what was applied. A
+// number in it that is not finite is a fault.
 struct device_report {
   bool told = false;          // false: the device does not tell
   unsigned commands_ago = 0;  // how many have left since through write() with `ok`; 0: it is the newest

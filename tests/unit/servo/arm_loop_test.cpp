@@ -69,11 +69,8 @@ struct run_of {
 
 using change = std::function<void(arm_servo_options&)>;
 
-template <class Model>
-run_of<Model> run(
-    Model& model, const arm_description& arm, const simulated::arm_scenario& scene, double duration,
-    const change& also = [](arm_servo_options&) {}) {
-  simulated_arm device(arm, scene);
+template <class Model, class Device>
+run_of<Model> run_on(Device& device, Model& model, const arm_description& arm, double duration, const change& also) {
   const auto estimator_of = [&arm](unsigned j) {
     return any_estimator<double>(arm.joints[j].velocity, arm.loop().sample_period, arm.joints[j].encoder.step);
   };
@@ -89,9 +86,18 @@ run_of<Model> run(
                      [&result](const arm_telemetry_record& record) { result.records.push_back(record); }};
   also(options);
   result.summary = servo_loop(model, device, both, options, simulated_clock{}).run();
-  result.ledger = device.ledger();
   result.log = log.text();
   result.table = table.text();
+  return result;
+}
+
+template <class Model>
+run_of<Model> run(
+    Model& model, const arm_description& arm, const simulated::arm_scenario& scene, double duration,
+    const change& also = [](arm_servo_options&) {}) {
+  simulated_arm device(arm, scene);
+  run_of<Model> result = run_on(device, model, arm, duration, also);
+  result.ledger = device.ledger();
   return result;
 }
 
@@ -222,6 +228,43 @@ TEST(ArmLoop, GoesSafeAndNamesTheJoint) {
   weak.joints[0].motor.max_torque = 1e-5;
   weak.joints[0].motor.saturation_allowed = 0.001;
   expect_safe(run(weak, ellipse(), 0.2), fault::motor_saturated, "motor saturated: joint 1: ");
+}
+
+// Tells once something else than what it applies.
+struct misreporting_arm : simulated_arm {
+  misreporting_arm(const arm_description& arm, double& (*told)(arm_actuation&), double value)
+      : simulated_arm(arm, ellipse()), told(told), value(value) {}
+
+  device_status read(arm_sample& sample) noexcept {
+    const device_status status = simulated_arm::read(sample);
+    if (++reads == 50) told(sample.report.applied) = value;
+    return status;
+  }
+
+  double& (*told)(arm_actuation&);
+  double value;
+  unsigned reads = 0;
+};
+
+TEST(ArmLoop, GoesSafeWhereAReportIsNotFinite) {
+  const auto run_with = [](double& (*told)(arm_actuation&), double value) {
+    misreporting_arm device(pantograph(), told, value);
+    law model;
+    return run_on(device, model, pantograph(), 0.01, [](arm_servo_options&) {});
+  };
+  const auto torque_2 = [](arm_actuation& applied) -> double& { return applied.motor_torque[1]; };
+  const auto damping_1 = [](arm_actuation& applied) -> double& { return applied.brake_damping[0]; };
+  EXPECT_NE(run_with(torque_2, HUGE_VAL).log.find("report not finite: joint 2: the device says that it applies inf"),
+            std::string::npos);
+  EXPECT_NE(run_with(damping_1, HUGE_VAL).log.find("report not finite: brake 1: the device says that it applies inf"),
+            std::string::npos);
+  for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    for (const run_of<law>& ran : {run_with(torque_2, value), run_with(damping_1, value)}) {
+      EXPECT_EQ(ran.summary.faults.total(), 1u) << ran.log;
+      EXPECT_EQ(ran.summary.state, servo_state::safe);
+      EXPECT_TRUE(std::isfinite(ran.summary.energy));
+    }
+  }
 }
 
 // A law of an arm is certified within the workspace alone.

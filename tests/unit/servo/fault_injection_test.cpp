@@ -79,6 +79,16 @@ scenario position_becomes(const char* name, fault kind, double position) {
           }};
 }
 
+scenario report_becomes(const char* name, actuation applied) {
+  return {name, fault::report_not_finite, 0, [applied](rig& parts, std::size_t instant) {
+            disturb_from(parts, instant, [applied, instant, &parts](device_sample& sample) {
+              const std::vector<actuation>& written = parts.device.written();
+              sample.report = {true, 0, written.size() == instant ? applied : written.back()};
+              return device_status::ok;
+            });
+          }};
+}
+
 scenario status_becomes(const char* name, fault kind, device_status status) {
   return {name, kind, 0, [status](rig& parts, std::size_t instant) {
             disturb_once(parts, instant, [status](device_sample&) { return status; });
@@ -120,6 +130,8 @@ std::vector<scenario> scenarios() {
            return device_status::ok;
          });
        }},
+      report_becomes("ReportedTorqueNaN", {not_a_number, 11.0}),
+      report_becomes("ReportedDampingInfinite", {0.0, infinity}),
       velocity_becomes("VelocityNaN", fault::velocity_not_finite, not_a_number),
       velocity_becomes("OverspeedForwards", fault::overspeed, 2.0 + 1e-9),
       velocity_becomes("OverspeedBackwards", fault::overspeed, -2.0 - 1e-9),

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,47 @@ TEST_F(ServoRestart, AFiniteForceThatOverflowsOnItsWayToTheDeviceIsAFault) {
   const servo_summary summary = run(20);
   EXPECT_EQ(summary.faults.of(fault::command_not_finite), 1u);
   for (std::size_t k = 0; k < 20; ++k) EXPECT_EQ(is_safe(k), k >= 1) << k;
+}
+
+// Broken, one number in what the device says that it applied would leave no account of the energy for the rest of the
+// run, and nothing would raise the brake any more.
+TEST_F(ServoRestart, AReportThatIsNotFiniteIsAFaultAndSpoilsNoAccount) {
+  constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  options.command.energy = energy_policy::raise_brake;
+  for (const actuation applied : {actuation{not_a_number, 0}, actuation{infinity, 0}, actuation{-infinity, 0},
+                                  actuation{0, not_a_number}, actuation{0, infinity}, actuation{0, -infinity}}) {
+    restart_parts();
+    // As in ServoLoop.RaisesTheBrakeWhereItIsAskedTo.
+    device.on_read([this, applied](std::size_t read, device_sample& sample) {
+      sample.position = 0.01 - std::abs(static_cast<double>(read % 40) - 20.0) * 0.0005;
+      if (read > 0) sample.report = {true, 0, read == 10 ? applied : device.written().back()};
+      return device_status::ok;
+    });
+    model.on_output([](std::size_t output, command<double>& wanted) {
+      wanted = {0.0, (output < 10 ? output : output + 6) % 40 < 20 ? -1.0 : 1.0};
+    });
+    const servo_summary summary = run(401, [](std::size_t write, servo_control& control) {
+      if (write == 15) control.reset(), control.start();
+    });
+    EXPECT_EQ(summary.faults.total(), 1u);
+    for (std::size_t k = 10; k < 16; ++k) EXPECT_TRUE(is_safe(k)) << k;
+    EXPECT_TRUE(std::isfinite(summary.energy));
+    EXPECT_GT(summary.lowest_energy, -5 * 0.0005);
+  }
+}
+
+// Broken, a torque that is a number would spoil the account where the force that it makes at the tool is none.
+TEST_F(ServoRestart, AReportedTorqueWhoseForceOverflowsIsAFault) {
+  device_description arm = scripted_description();
+  arm.motion = motion::rotation;
+  arm.arm_radius = 0.01;
+  device = scripted_device(arm);
+  device.on_read([](std::size_t read, device_sample& sample) {
+    if (read == 10) sample.report = {true, 0, {1e307, 11.0}};
+    return device_status::ok;
+  });
+  EXPECT_EQ(run(20).faults.of(fault::report_not_finite), 1u);
 }
 
 // Broken, the history before a fault would leak into the run after it.

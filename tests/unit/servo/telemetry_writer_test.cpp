@@ -160,6 +160,7 @@ TEST(ServoEvent, NamesEveryFaultWithItsEvidence) {
       {{fault::no_data, 4, 3}, "no data: 4 periods without a fresh sample, at most 3"},
       {{fault::device_error, 4, 0}, "device error: the device answers 'disconnected'"},
       {{fault::position_not_finite, -1.0 / 0.0, 0}, "position not finite: the device reads -inf"},
+      {{fault::report_not_finite, -1.0 / 0.0, 0}, "report not finite: the device says that it applies -inf"},
       {{fault::position_out_of_range, 0.9, 0.8}, "position out of range: 0.9 rad is beyond 0.8 rad"},
       {{fault::encoder_jump, 0.3, 0.0033}, "encoder jump: moved 0.3 rad between two samples, at most 0.0033 rad"},
       {{fault::velocity_not_finite, 1.0 / 0.0, 2}, "velocity not finite: the estimator returns inf"},

@@ -206,6 +206,7 @@ class arm_path {
   fault_report respond(const arm_sample& sample) noexcept {
     if (!at_rest_) rest_at(sample);
     hold_coils_over_gap();
+    if (const fault_report found = check_report(sample.report)) return found;
     heed(sample.report);
     const unsigned periods = newest().periods_since_last();
     for (unsigned j = 0; j < arm_axes; ++j) {
@@ -248,6 +249,16 @@ class arm_path {
     for (unsigned j = 0; j < arm_axes; ++j) demand_.motor_torque[j] = joints_[j].output.motor_torque;
     for (unsigned i = 0; i < arm_.brake_count; ++i) demand_.brake_damping[i] = brakes_[i].output.brake_damping;
     answered_ = true;
+    return {};
+  }
+
+  fault_report check_report(const arm_report& report) noexcept {
+    if (!report.told) return {};
+    for (unsigned j = 0; j < arm_axes; ++j)
+      if (const fault_report found = newest().check_report(0, report.applied.motor_torque[j])) return at(j, found);
+    for (unsigned i = 0; i < arm_.brake_count; ++i)
+      if (const fault_report found = newest().check_report(report.applied.brake_damping[i], 0))
+        return at_brake(i, found);
     return {};
   }
 

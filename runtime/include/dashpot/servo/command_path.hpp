@@ -133,6 +133,7 @@ class command_path {
   fault_report respond(const device_sample& sample) noexcept {
     if (!at_rest_) rest_at(sample);
     hold_coil_over_gap();
+    if (const fault_report found = check_report(sample.report)) return found;
     heed(sample.report);
     const double joint_velocity = feed_.update(sample, monitor_.periods_since_last());
     if (const fault_report found = monitor_.check_velocity(joint_velocity)) return found;
@@ -154,6 +155,13 @@ class command_path {
     demand_ = output_.demand();
     answered_ = true;
     return {};
+  }
+
+  // The torque also as the force at the tool, in which the energy is counted.
+  fault_report check_report(const device_report& report) const noexcept {
+    if (!report.told) return {};
+    return monitor_.check_report(report.applied.brake_damping,
+                                 actuator_.gear().tool_force(report.applied.motor_torque));
   }
 
   // Takes note of what the device made of a command: if it is less than was asked, that is reported and counted, and

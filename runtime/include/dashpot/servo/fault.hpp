@@ -11,6 +11,7 @@ enum class fault : unsigned char {
   no_data,                // more periods in a row without a fresh sample than the device allows
   device_error,           // the device is disconnected or reports a fault of its own, reading or writing
   position_not_finite,    //
+  report_not_finite,      // what the device says that a motor or a brake applies
   position_out_of_range,  // outside the encoder's stated range
   encoder_jump,           // further from the sample before than the speed limit permits
   velocity_not_finite,    // from the estimator
@@ -30,6 +31,7 @@ constexpr const char* name_of(fault which) noexcept {
     case fault::no_data: return "no data";
     case fault::device_error: return "device error";
     case fault::position_not_finite: return "position not finite";
+    case fault::report_not_finite: return "report not finite";
     case fault::position_out_of_range: return "position out of range";
     case fault::encoder_jump: return "encoder jump";
     case fault::velocity_not_finite: return "velocity not finite";

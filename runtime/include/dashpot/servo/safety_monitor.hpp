@@ -63,8 +63,13 @@ class safety_monitor {
 
   // The model's command, in its own unit.
   constexpr fault_report check_command(double damping, double force) const noexcept {
-    if (!all_finite(damping, force, 0.0)) return {fault::command_not_finite, is_finite(force) ? damping : force, 0};
-    return {};
+    return check_finite(fault::command_not_finite, damping, force);
+  }
+
+  // What the device says that a motor and a brake apply, in the joint's unit. Energy that is reckoned with it would be
+  // no number from there on.
+  constexpr fault_report check_report(double damping, double torque) const noexcept {
+    return check_finite(fault::report_not_finite, damping, torque);
   }
 
   // Whether the motor could not make all of this period's torque.
@@ -158,6 +163,10 @@ class safety_monitor {
     fresh_ = true;
   }
 
+  static constexpr fault_report check_finite(fault kind, double damping, double force) noexcept {
+    if (!all_finite(damping, force, 0.0)) return {kind, is_finite(force) ? damping : force, 0};
+    return {};
+  }
   static constexpr bool is_finite(double value) noexcept { return all_finite(value, 0.0, 0.0); }
   static constexpr double magnitude(double value) noexcept { return value < 0 ? -value : value; }
 

@@ -231,6 +231,14 @@ class Motion(CommandTest):
             self.assertAlmostEqual(one["closed_form"], other["closed_form"], delta=1e-8)
         self.assertEqual(*map(len, results))
 
+    def test_a_structure_that_gives(self):
+        """Fails if a motion of the tool is played on a device whose shaft it does not tell, as its page says."""
+        self.write("motion.csv", table(sine(250)))
+        soft = self.device(mechanics={"mode": {"frequency": "50 Hz", "mass": "0.1 kg"}})
+        self.assertIn("does not say how a structure that gives moves the shaft",
+                      self.refused("run", self.write("kelvin.json", KELVIN), "--device", soft, "--motion", "motion.csv",
+                                   code="cannot-start-device").stderr)
+
     def test_what_is_printed_and_written(self):
         """Fails if the errors are not reported, the file is not where it is said to be, or a run is not the same from
         the same seed."""

@@ -11,25 +11,26 @@
 namespace dashpot::compiler {
 namespace {
 
-// C++20 keywords and alternative tokens, and object-like macros that compilers predefine or common headers define.
+// C++20 keywords and alternative tokens, object-like macros that compilers predefine or common headers define, and what
+// C23 and, by default, gcc and clang keep beside them.
 constexpr std::string_view keywords[] = {
-    "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
-    "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",
-    "char32_t",    "char8_t",  "class",      "co_await",  "co_return", "co_yield",     "compl",
-    "concept",     "const",    "const_cast", "consteval", "constexpr", "constinit",    "continue",
-    "decltype",    "default",  "delete",     "do",        "double",    "dynamic_cast", "else",
-    "enum",        "explicit", "export",     "extern",    "false",     "float",        "for",
-    "friend",      "goto",     "if",         "inline",    "int",       "long",         "mutable",
-    "namespace",   "new",      "noexcept",   "not",       "not_eq",    "nullptr",      "operator",
-    "or",          "or_eq",    "private",    "protected", "public",    "register",     "reinterpret_cast",
-    "requires",    "return",   "short",      "signed",    "sizeof",    "static",       "static_assert",
-    "static_cast", "struct",   "switch",     "template",  "this",      "thread_local", "throw",
-    "true",        "try",      "typedef",    "typeid",    "typename",  "union",        "unsigned",
-    "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
-    "xor_eq",      "linux",    "unix",       "i386",      "NULL",      "NAN",          "INFINITY",
-    "EOF",         "errno",    "HUGE_VAL",   "M_E",       "M_LOG2E",   "M_LOG10E",     "M_LN2",
-    "M_LN10",      "M_PI",     "M_PI_2",     "M_PI_4",    "M_1_PI",    "M_2_PI",       "M_2_SQRTPI",
-    "M_SQRT2",     "M_SQRT1_2"};
+    "alignas",     "alignof",   "and",        "and_eq",       "asm",       "auto",         "bitand",
+    "bitor",       "bool",      "break",      "case",         "catch",     "char",         "char16_t",
+    "char32_t",    "char8_t",   "class",      "co_await",     "co_return", "co_yield",     "compl",
+    "concept",     "const",     "const_cast", "consteval",    "constexpr", "constinit",    "continue",
+    "decltype",    "default",   "delete",     "do",           "double",    "dynamic_cast", "else",
+    "enum",        "explicit",  "export",     "extern",       "false",     "float",        "for",
+    "friend",      "goto",      "if",         "inline",       "int",       "long",         "mutable",
+    "namespace",   "new",       "noexcept",   "not",          "not_eq",    "nullptr",      "operator",
+    "or",          "or_eq",     "private",    "protected",    "public",    "register",     "reinterpret_cast",
+    "requires",    "return",    "short",      "signed",       "sizeof",    "static",       "static_assert",
+    "static_cast", "struct",    "switch",     "template",     "this",      "thread_local", "throw",
+    "true",        "try",       "typedef",    "typeid",       "typename",  "union",        "unsigned",
+    "using",       "virtual",   "void",       "volatile",     "wchar_t",   "while",        "xor",
+    "xor_eq",      "linux",     "unix",       "i386",         "NULL",      "NAN",          "INFINITY",
+    "EOF",         "errno",     "HUGE_VAL",   "M_E",          "M_LOG2E",   "M_LOG10E",     "M_LN2",
+    "M_LN10",      "M_PI",      "M_PI_2",     "M_PI_4",       "M_1_PI",    "M_2_PI",       "M_2_SQRTPI",
+    "M_SQRT2",     "M_SQRT1_2", "typeof",     "typeof_unqual"};
 
 // Members of the emitted class (architecture, section 5), names inside its functions, and the namespaces around it.
 constexpr std::string_view members[] = {

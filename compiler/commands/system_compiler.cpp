@@ -19,6 +19,16 @@ namespace dashpot::compiler {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Options beside the name in CC or CXX are taken for a part of it.
+std::string reason_not_to_start(const std::string& program) {
+  const bool has_options = program.find(' ') != std::string::npos;
+  return has_options ? "cannot be started; one program's name is expected, without options" : "cannot be started";
+}
+
+}  // namespace
+
 std::string environment_or(const char* variable, const char* otherwise) {
   const char* chosen = std::getenv(variable);
   return chosen != nullptr && *chosen != '\0' ? chosen : otherwise;
@@ -82,9 +92,14 @@ bool makes_library(std::vector<std::string> words, const TemporaryFolder& folder
   const fs::path here = folder.path(), log = here / "compiler.log";
   words.insert(words.end(), {(here / source).string(), "-o", (here / library).string()});
   const int status = run_program(words, log.string());
-  if (status == 0) return true;
+  std::error_code error;  // of a file that is not there
+  const bool has_written = fs::file_size(here / library, error) > 0 && !error;
+  if (status == 0 && has_written) return true;
   diagnostics.report<DiagnosticCode::system_compiler_failed>(
-      {}, words.front(), status == program_not_found ? "cannot be started" : contents_of(log));
+      {}, words.front(),
+      status == program_not_found ? reason_not_to_start(words.front())
+      : status == 0               ? "it ends without an error and without a library"
+                                  : contents_of(log));
   return false;
 }
 

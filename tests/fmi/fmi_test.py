@@ -460,6 +460,11 @@ class Units(unittest.TestCase):
             self.assertIn("'no-such-compiler' does not compile the emitted code: cannot be started "
                           "[system-compiler-failed]", told)
             self.assertIn("[system-compiler-failed]", ran(*command, status=1, env={**os.environ, "CC": "false"}))
+            told = ran(*command, status=1, env={**os.environ, "CC": f"{CC} -m32"})
+            self.assertIn("cannot be started; one program's name is expected, without options", told)
+            told = ran(*command, status=1, env={**os.environ, "CC": "true"})
+            self.assertIn("'true' does not compile the emitted code: it ends without an error and without a library "
+                          "[system-compiler-failed]", told)
             self.assertFalse((self.folder / "none").exists())
             told = ran(*command[:-1], "/dev/null/none", status=1)
             self.assertIn("[cannot-write-file]", told)

@@ -199,7 +199,8 @@ class Refusals(PackageTest):
     def test_compiler(self):
         """Fails if a missing or failing C compiler is not said, with what would do, or leaves files."""
         self.assertIn("CC names another", self.refused(FIG_5, code="'/nowhere/cc' does not compile", CC="/nowhere/cc"))
-        self.refused(FIG_5, code="[system-compiler-failed]", CC="/bin/false")
+        for does_nothing in ("/bin/false", "/bin/true"):
+            self.refused(FIG_5, code="[system-compiler-failed]", CC=does_nothing)
 
     def test_folder(self):
         """Fails if a folder that cannot be written is found out when something is written already."""

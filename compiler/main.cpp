@@ -427,7 +427,7 @@ void describe(CLI::App& app, CommandLine& line) {
   run->add_option("--for", options.duration, "How long [s], default until Ctrl-C")
       ->check(check_duration)
       ->option_text("SECONDS");
-  run->add_option("--port", options.port, "The board: serial:PATH?baud=N, unix:PATH, udp:HOST:PORT or pty:")
+  run->add_option("--port", options.port, "The board: serial:PATH?baud=N, unix:PATH or udp:HOST:PORT")
       ->option_text("URL");
   run->add_option(
          "--hand", options.hand,

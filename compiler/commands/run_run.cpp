@@ -81,6 +81,13 @@ bool asks_a_board_to_be_simulated(const Options& options, Diagnostics& diagnosti
   return diagnostics.has_errors();
 }
 
+// A program that makes a pseudo-terminal can tell a peer its other end; here nobody would know it.
+bool asks_for_what_nothing_can_open(const Options& options, Diagnostics& diagnostics) {
+  if (options.port != "pty:") return false;
+  diagnostics.report<DiagnosticCode::port_without_other_end>({}, *options.port);
+  return true;
+}
+
 // A recorded motion takes as long as it takes, and needs no hand and no board. Without one something else ends a run
 // that no clock holds back.
 bool asks_for_more_than_a_motion(const Options& options, Diagnostics& diagnostics) {
@@ -125,7 +132,8 @@ ExitStatus play_motion(const Options& options, const Compilation& compilation, S
 }  // namespace
 
 ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
-  if (asks_a_board_to_be_simulated(options, diagnostics) || asks_for_more_than_a_motion(options, diagnostics))
+  if (asks_a_board_to_be_simulated(options, diagnostics) || asks_for_more_than_a_motion(options, diagnostics) ||
+      asks_for_what_nothing_can_open(options, diagnostics))
     return ExitStatus::command_line_wrong;
   const DeviceChoice device = open_any_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;

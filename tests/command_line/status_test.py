@@ -180,6 +180,12 @@ class WrongCommandLine(CommandTest):
             self.assertIn(f"error: {option[0]} with --port", done.stderr)
         self.assertEqual(self.files(), [])
 
+    def test_of_a_port_without_a_name(self):
+        """Fails if a run waits on a pseudo-terminal whose other end nobody can open, or the help offers one."""
+        told = self.dashpot("run", FIG_5, "--device", PANTOGRAPH, "--port", "pty:", status=COMMAND_LINE_WRONG).stderr
+        self.assertIn("[port-without-other-end]", told)
+        self.assertNotIn("pty:", self.dashpot("run", "--help").stdout)
+
     def test_of_a_rate_that_the_device_has_not(self):
         """Fails if --rate overrules the loop that the device really runs."""
         self.refused("check", FIG_5, "--device", PANTOGRAPH, "--rate", "1000", code="device-rate-contradicts",

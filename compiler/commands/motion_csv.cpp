@@ -382,7 +382,7 @@ class CsvTable {
     switch (irregular.kind) {
       case Irregularity::Kind::no_rise:
         diagnostics_.report<DiagnosticCode::csv_time_not_rising>(row, irregular.found, irregular.expected);
-        if (irregular.found < irregular.expected) return;
+        if (irregular.found < irregular.expected || !digits_.are_known()) return;
         break;
       case Irregularity::Kind::step:
         diagnostics_.report<DiagnosticCode::csv_not_uniform>(row, irregular.found, irregular.expected);

@@ -15,9 +15,10 @@ inline constexpr double coarsest_share = 0.1;  // of the period, of a last digit
 // What the digits of times tell of their rounding, in a table that has so many decimals, or so many significant digits.
 class TimeDigits {
  public:
-  explicit TimeDigits(double unit = 1) : unit_(unit) {}  // of the numbers [s]
-  void add(std::string_view number);                     // decimal notation
-  double unit_at(double time) const;                     // of the last digit of a time of this size [s]
+  explicit TimeDigits(double unit = 1) : unit_(unit) {}       // of the numbers [s]
+  void add(std::string_view number);                          // decimal notation
+  bool are_known() const { return last_place_.has_value(); }  // false where every time is a bare 0
+  double unit_at(double time) const;                          // of the last digit of a time of this size [s]
 
  private:
   double unit_;

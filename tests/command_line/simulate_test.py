@@ -335,7 +335,8 @@ class Table(SimulateTest):
             self.assertTrue(told.startswith(f"motion.csv:{line}:1: error: row is at {found} s, the one before at "
                                             f"{before} s; times that rise"), told)
             self.assertNotIn("digits", told)
-        self.refuses("time,position\n0,0\n0,0\n0,0\n", "csv-time-not-rising")
+        for rows in ("0,0\n0,0\n0,0\n", "0,0\n0,1\n"):
+            self.assertNotIn("digit", self.refuses("time,position\n" + rows, "csv-time-not-rising").stderr)
         told = self.refuses(table([(f"{n / 3000:.3f}", 0) for n in range(30)]), "csv-time-not-rising").stderr
         self.assertTrue(told.startswith("motion.csv:3:1: error: row is at 0 s, the one before at 0 s"), told)
         self.assertIn("last digit, 0.001 s here", told)

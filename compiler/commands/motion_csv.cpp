@@ -1,7 +1,10 @@
 #include "commands/motion_csv.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 
 #include "commands/motion_cell.hpp"
@@ -404,6 +407,18 @@ class CsvTable {
 };
 
 }  // namespace
+
+double same_rate_of(const Motion& motion) {
+  constexpr double same_rate = 1e-6;  // times in a file are decimal numbers of limited length
+  return std::max(same_rate, motion.period_error / *motion.period);
+}
+
+double rate_meant(const Motion& motion) {
+  const double period = *motion.period, rate = 1 / period;
+  if (const double whole = std::round(rate); whole > 0 && std::abs(rate - whole) <= same_rate_of(motion) * rate)
+    return whole;
+  return 1 / std::strtod(fmt::format("{:.7g}", period).c_str(), nullptr);
+}
 
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics) {
   return CsvTable(file, diagnostics).read();

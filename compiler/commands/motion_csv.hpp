@@ -36,6 +36,14 @@ struct Motion {
   double period_error = 0;       // what the rounding of the times leaves open [s]
 };
 
+// The rate that a motion of two rows or more means: a whole number of hertz, or a period with few digits, rather than
+// the rounding of times.
+double rate_meant(const Motion& motion);
+
+// What rates may differ by to be the same, relative: the times' rounding leaves more of it open where they have few
+// digits.
+double same_rate_of(const Motion& motion);
+
 // In: a table as `dashpot fit` reads it, separated by commas, semicolons, bars, tabs or blanks, decimals behind a point
 // or a comma, lines of other text before its header. The header names time and position, perhaps velocity, in any order
 // among other columns and under any of the names that `fit` knows, with a unit beside or below the name ("position

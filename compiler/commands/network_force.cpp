@@ -111,18 +111,32 @@ std::optional<Compilation> compiled_finely(const Compilation& c, const Choices& 
 
 }  // namespace
 
+RecordedPath::RecordedPath(const Motion& clock, const std::vector<double>& position) : position_(position), rate_(1) {
+  if (!clock.period) return;
+  const double meant = rate_meant(clock);
+  rate_ = std::abs(1 / meant - *clock.period) <= clock.period_error ? meant : 1 / *clock.period;
+}
+
 std::size_t RecordedPath::piece(double time) const {
-  const double wanted = time + clock_.time.front() + 1e-6 * clock_.period.value_or(0);
-  const auto behind = std::upper_bound(clock_.time.begin(), clock_.time.end(), wanted);
-  return behind == clock_.time.begin() ? 0 : std::size_t(behind - clock_.time.begin()) - 1;
+  return std::size_t(std::clamp(std::floor(time * rate_ + 1e-6), 0.0, double(position_.size() - 1)));
+}
+
+simulated::motion_point RecordedPath::beginning(std::size_t row) const {
+  if (row + 1 == position_.size()) return {position_[row], 0};
+  return {position_[row], (position_[row + 1] - position_[row]) * rate_};
 }
 
 simulated::motion_point RecordedPath::point(double time) const {
-  const std::size_t before = piece(time);
-  const bool at_rest = time < 0 || before + 1 == clock_.time.size();
-  if (at_rest) return {position_[before], 0};
-  const double slope = (position_[before + 1] - position_[before]) / (at(before + 1) - at(before));
-  return {position_[before] + slope * (time - at(before)), slope};
+  const std::size_t row = piece(time);
+  const simulated::motion_point begun = beginning(row);
+  if (time < 0 || row + 1 == position_.size()) return {begun.position, 0};
+  return {begun.position + begun.velocity * (time - at(row)), begun.velocity};
+}
+
+std::optional<std::size_t> RecordedPath::first_beyond(double speed) const {
+  for (std::size_t row = 0; row < position_.size(); ++row)
+    if (!(std::abs(beginning(row).velocity) <= speed)) return row;
+  return std::nullopt;
 }
 
 std::optional<ReferenceForce> ReferenceForce::of(const Compilation& c, const Choices& choices,

@@ -29,16 +29,18 @@ class Path {
 // A column of a recording, straight between its rows.
 class RecordedPath : public Path {
  public:
-  RecordedPath(const Motion& clock, const std::vector<double>& position) : clock_(clock), position_(position) {}
+  RecordedPath(const Motion& clock, const std::vector<double>& position);
 
-  double end() const { return at(clock_.time.size() - 1); }
-  double at(std::size_t row) const override { return clock_.time[row] - clock_.time.front(); }
+  double end() const { return at(position_.size() - 1); }
+  double at(std::size_t row) const override { return double(row) / rate_; }
   std::size_t piece(double time) const override;
   simulated::motion_point point(double time) const override;
+  simulated::motion_point beginning(std::size_t row) const;     // of the piece behind it; at rest in the last
+  std::optional<std::size_t> first_beyond(double speed) const;  // the first row behind which it is not within that
 
  private:
-  const Motion& clock_;
   const std::vector<double>& position_;
+  double rate_;  // that the times mean, as far as their rounding leaves it open [Hz]
 };
 
 class NetworkForce {

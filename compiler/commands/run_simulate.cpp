@@ -15,20 +15,6 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double same_rate = 1e-6;  // relative: times in a file are decimal numbers of limited length
-
-// What rates may differ by, relative: the times' rounding leaves more of it open where they have few digits.
-double same_rate_of(const Motion& motion) { return std::max(same_rate, motion.period_error / *motion.period); }
-
-// The rate that the file means: a whole number of hertz, or a period with few digits, rather than the rounding of
-// times.
-double rate_meant(const Motion& motion) {
-  const double period = *motion.period, rate = 1 / period;
-  if (const double whole = std::round(rate); whole > 0 && std::abs(rate - whole) <= same_rate_of(motion) * rate)
-    return whole;
-  return 1 / std::strtod(fmt::format("{:.7g}", period).c_str(), nullptr);
-}
-
 // What the motion's rate is held against.
 struct DeviceRate {
   std::string name;

@@ -89,7 +89,8 @@ std::variant<UniformPeriod, Irregularity> uniform_period(const std::vector<doubl
   const auto last = static_cast<double>(times.size() - 1);
   const double period = (times.back() - times.front()) / last;
   const std::optional<std::size_t> off_step = row_off_step(times, median, 0);
-  if (!off_step) return UniformPeriod{period, 0};
+  const double rounding = rounding_at(times.back());
+  if (!off_step) return UniformPeriod{period, rounding / last};
   const auto irregular = [&](std::size_t row) {
     return Irregularity{Irregularity::Kind::step, row, times[row] - times[row - 1], median, median, unit};
   };
@@ -100,7 +101,7 @@ std::variant<UniformPeriod, Irregularity> uniform_period(const std::vector<doubl
     return Irregularity{
         Irregularity::Kind::drift, *row, times[*row], times.front() + static_cast<double>(*row) * period, period, unit};
   }
-  return UniformPeriod{period, unit / last};
+  return UniformPeriod{period, (unit + rounding) / last};
 }
 
 }  // namespace dashpot::compiler

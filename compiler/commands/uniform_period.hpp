@@ -28,7 +28,7 @@ class TimeDigits {
 
 struct UniformPeriod {
   double period;  // [s]
-  double error;   // of it, that the rounding of the times leaves [s]
+  double error;   // of it, that the rounding of the times leaves, in their digits and in a double [s]
 };
 
 // Row `row` is at the time `found`, and the one before at `expected`, no earlier; or it follows that one after `found`,

@@ -231,6 +231,16 @@ class Motion(CommandTest):
             self.assertAlmostEqual(one["closed_form"], other["closed_form"], delta=1e-8)
         self.assertEqual(*map(len, results))
 
+    def test_times_since_an_epoch(self):
+        """Fails if times so late that a double rounds them lose the last row, or make another motion of it."""
+        net = self.write("solid.json", network(SOLID, "solid"))
+        positions = [0.003 * math.sin(0.05 * k) for k in range(100)]
+        told = [self.played(net, self.device(), "time,position\n" + "".join(
+            f"{start + k / 1000:.3f},{position}\n" for k, position in enumerate(positions)))
+            for start in (0, 1_700_000_000)]
+        self.assertEqual(told[0][1]["samples"], 199)
+        self.assertEqual(told[0], told[1])
+
     def test_a_structure_that_gives(self):
         """Fails if a motion of the tool is played on a device whose shaft it does not tell, as its page says."""
         self.write("motion.csv", table(sine(250)))

@@ -135,7 +135,20 @@ void sum_up(PlayedMotion& played) {
   }
 }
 
-double share(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
+// Nothing where there is nothing to be a share of.
+std::optional<double> share(double part, double whole) {
+  return whole > 0 ? std::optional(part / whole) : std::nullopt;
+}
+
+std::string text_of_share(double part, double whole) {
+  const std::optional<double> of_it = share(part, whole);
+  return of_it ? fmt::format(" ({:.3g} %)", 100 * *of_it) : "";
+}
+
+nlohmann::ordered_json json_of_share(double part, double whole) {
+  const std::optional<double> of_it = share(part, whole);
+  return of_it ? nlohmann::ordered_json(*of_it) : nlohmann::ordered_json();
+}
 
 }  // namespace
 
@@ -189,9 +202,9 @@ std::string csv_of(const PlayedMotion& played) {
 }
 
 std::string text_of_error(const ForceError& error, const std::string& unit) {
-  return fmt::format("rms {:.4g} {} ({:.3g} %), peak {:.4g} {} ({:.3g} %)", error.rms_error, unit,
-                     share(error.rms_error, error.rms_force), error.peak_error, unit,
-                     share(error.peak_error, error.peak_force));
+  return fmt::format("rms {:.4g} {}{}, peak {:.4g} {}{}", error.rms_error, unit,
+                     text_of_share(error.rms_error, error.rms_force), error.peak_error, unit,
+                     text_of_share(error.peak_error, error.peak_force));
 }
 
 std::string text_of_brake(double mean, double most, double for_passivity, const std::string& unit) {
@@ -231,8 +244,8 @@ nlohmann::ordered_json json_of_force(const ForceError& error) {
 nlohmann::ordered_json json_of_error(const ForceError& error) {
   return {{"rms", error.rms_error},
           {"peak", error.peak_error},
-          {"rms_share", error.rms_force > 0 ? error.rms_error / error.rms_force : 0},
-          {"peak_share", error.peak_force > 0 ? error.peak_error / error.peak_force : 0}};
+          {"rms_share", json_of_share(error.rms_error, error.rms_force)},
+          {"peak_share", json_of_share(error.peak_error, error.peak_force)}};
 }
 
 nlohmann::ordered_json json_of_energy(const PlayedMotion& p) {

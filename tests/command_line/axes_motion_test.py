@@ -234,6 +234,17 @@ class AxesMotion(CommandTest):
         _, single = self.played(FIELD, PANTOGRAPH, motion, "--scalar", "float")
         self.assertAlmostEqual(single["tip"]["error"]["rms_share"], double["tip"]["error"]["rms_share"], delta=0.01)
 
+    def test_nothing_to_be_relative_to(self):
+        """Fails if an error is called none where the force that it would be a share of is 0 throughout."""
+        net = self.network({"map": {"along": [1, 0]}, "network": KELVIN})
+        device = self.device("cartesian", motors={"noise": "10 mN"})
+        _, told = self.played(net, device, table([(0, 0, 0.095), (0.1, 0, 0.095)]))
+        for error in (told["joints"][0]["error"], told["joints"][1]["error"], told["tip"]["error"]):
+            self.assertGreater(error["rms"], 0)
+            self.assertEqual((error["rms_share"], error["peak_share"]), (None, None))
+        said = self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv").stdout
+        self.assertRegex(said, r"error of what joint 2 feels: rms [\d.]+ N, peak [\d.]+ N\n")
+
     def test_refusals(self):
         """Fails if a recording that makes no motion of the arm is played, or refused without its place."""
         net = self.network({"map": {"along": [1, 0]}, "network": KELVIN})

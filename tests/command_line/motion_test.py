@@ -241,6 +241,17 @@ class Motion(CommandTest):
         self.assertEqual(told[0][1]["samples"], 199)
         self.assertEqual(told[0], told[1])
 
+    def test_nothing_to_be_relative_to(self):
+        """Fails if an error is called none where the force that it would be a share of is 0 throughout."""
+        net = self.write("kelvin.json", KELVIN)
+        device = self.device(motor={"noise": "10 mN"})
+        _, told = self.played(net, device, table([(0, 0), (0.1, 0), (0.2, 0)]))
+        self.assertEqual(told["force"], {"rms": 0, "peak": 0})
+        self.assertGreater(told["error"]["rms"], 0)
+        self.assertEqual((told["error"]["rms_share"], told["error"]["peak_share"]), (None, None))
+        said = self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv").stdout
+        self.assertRegex(said, r"error of what is felt: rms [\d.]+ N, peak [\d.]+ N\n")
+
     def test_a_structure_that_gives(self):
         """Fails if a motion of the tool is played on a device whose shaft it does not tell, as its page says."""
         self.write("motion.csv", table(sine(250)))

@@ -118,13 +118,16 @@ void add(ForceError& error, double felt_off, double wanted, double count) {
 
 void sum_up(PlayedMotion& played) {
   const double count = double(std::max<std::size_t>(played.samples.size(), 1));
+  double number = 0;
   for (const PlayedSample& sample : played.samples) {
+    ++number;
     for (unsigned j = 0; j < played.axes; ++j)
       add(played.errors[j], sample.felt_force[j] - sample.closed_form[j], sample.closed_form[j], count);
     const auto& [felt, wanted] = std::pair(sample.felt_at_tip, sample.closed_form_at_tip);
     add(played.at_tip, std::hypot(felt[0] - wanted[0], felt[1] - wanted[1]), std::hypot(wanted[0], wanted[1]), count);
     for (unsigned i = 0; i < played.brakes; ++i) {
-      played.mean_damping[i] += sample.damping[i] / count;
+      // Of those so far, which no rounding takes beyond the largest of them.
+      played.mean_damping[i] += (sample.damping[i] - played.mean_damping[i]) / number;
       played.most_damping[i] = std::max(played.most_damping[i], sample.damping[i]);
     }
     played.limited += sample.is_limited ? 1 : 0;

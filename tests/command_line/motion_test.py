@@ -260,6 +260,13 @@ class Motion(CommandTest):
                       self.refused("run", self.write("kelvin.json", KELVIN), "--device", soft, "--motion", "motion.csv",
                                    code="cannot-start-device").stderr)
 
+    def test_a_mean_is_no_more_than_the_most(self):
+        """Fails if rounding makes a brake on average stronger than it ever is."""
+        for damping in (0.1, 0.7, 1.3):
+            net = self.write("damper.json", network(f'{{ "damper": {damping} }}', "damper"))
+            _, told = self.played(net, self.device(), table(sine(2000)))
+            self.assertEqual(told["brake"]["mean"], told["brake"]["most"])
+
     def test_what_is_printed_and_written(self):
         """Fails if the errors are not reported, the file is not where it is said to be, or a run is not the same from
         the same seed."""

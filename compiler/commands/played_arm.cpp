@@ -113,7 +113,11 @@ class ArmForce {
       const Pair<double> gradient = axes::at_joints(pose, axes::depth(c_.network.ports[i].map, pose.tip).gradient);
       for (std::size_t j = 0; j < arm_axes; ++j) torque[j] += gradient[j] * force;
     }
-    for (std::size_t j = 0; j < arm_axes; ++j) sample.closed_form[j] = torque[j], sample.tip[j] = pose.tip[j];
+    for (std::size_t j = 0; j < arm_axes; ++j) {
+      sample.velocity[j] = v[j];
+      sample.closed_form[j] = torque[j];
+      sample.tip[j] = pose.tip[j];
+    }
     at_tip(pose, sample.closed_form, sample.closed_form_at_tip);
     at_tip(pose, sample.felt_force, sample.felt_at_tip);
   }
@@ -257,9 +261,11 @@ bool is_in_reach(const AxesCompilation& c, const JointMotion& motion, Diagnostic
 
 std::optional<PlayedMotion> play(const AxesCompilation& c, const JointMotion& motion, std::uint64_t seed,
                                  Diagnostics& diagnostics) {
-  if (!is_in_reach(c, motion, diagnostics)) return std::nullopt;
   const arm_description arm = arm_description_of(c.device);
   const ArmPath path(motion);
+  for (unsigned j = 0; j < arm_axes; ++j)
+    if (!has_speeds(path.joint(j), diagnostics)) return std::nullopt;
+  if (!is_in_reach(c, motion, diagnostics)) return std::nullopt;
   if (const char* refusal = simulated_arm::refusal(arm, scene_along(path, 0, seed))) {
     diagnostics.report<DiagnosticCode::cannot_start_device>({}, c.device.name, std::string(refusal));
     return std::nullopt;
@@ -269,7 +275,7 @@ std::optional<PlayedMotion> play(const AxesCompilation& c, const JointMotion& mo
   const auto run = [&](auto player) {
     return played_by(
         player, [&force](PlayedSample& sample) { force.answer(sample); }, arm_axes, arm.brake_count, path.end(),
-        arm.loop().sample_period);
+        arm.loop().sample_period, diagnostics);
   };
   if (c.law.scalar == ScalarType::float32) return run(ArmPlayer<float>(c, path, seed));
   return run(ArmPlayer<double>(c, path, seed));

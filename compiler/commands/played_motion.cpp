@@ -8,6 +8,7 @@
 #include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/led_device.hpp>
 #include <dashpot/simulated/simulated_device.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "commands/value_columns.hpp"
@@ -138,6 +139,12 @@ void sum_up(PlayedMotion& played) {
   }
 }
 
+bool is_finite(const PlayedSample& sample, unsigned axis) {
+  const double wanted = sample.closed_form[axis], off = sample.felt_force[axis] - wanted;
+  return all_finite(sample.position[axis], sample.estimate[axis], sample.motor_force[axis]) &&
+         all_finite(wanted * wanted, off * off);
+}
+
 // Nothing where there is nothing to be a share of.
 std::optional<double> share(double part, double whole) {
   return whole > 0 ? std::optional(part / whole) : std::nullopt;
@@ -155,8 +162,16 @@ nlohmann::ordered_json json_of_share(double part, double whole) {
 
 }  // namespace
 
-PlayedMotion played_by(Player& player, const std::function<void(PlayedSample&)>& answer, unsigned axes, unsigned brakes,
-                       double end, double period) {
+bool has_speeds(const RecordedPath& path, Diagnostics& diagnostics) {
+  const std::optional<std::size_t> row = path.first_beyond(std::numeric_limits<double>::max());
+  if (!row) return true;
+  const simulated::motion_point there = path.beginning(*row);
+  diagnostics.report<DiagnosticCode::answer_not_finite>({}, path.at(*row), there.position, there.velocity);
+  return false;
+}
+
+std::optional<PlayedMotion> played_by(Player& player, const std::function<void(PlayedSample&)>& answer, unsigned axes,
+                                      unsigned brakes, double end, double period, Diagnostics& diagnostics) {
   PlayedMotion played;
   played.axes = axes, played.brakes = brakes;
   played.stored_at_start = player.stored_at_start();
@@ -168,6 +183,11 @@ PlayedMotion played_by(Player& player, const std::function<void(PlayedSample&)>&
     played.samples.push_back(*sample);
     played.energy = player.energy();
     played.lowest_energy = std::min(played.lowest_energy, played.energy);
+    for (unsigned j = 0; j < axes; ++j) {
+      if (is_finite(*sample, j) && std::isfinite(played.energy)) continue;
+      diagnostics.report<DiagnosticCode::answer_not_finite>({}, sample->time, sample->position[j], sample->velocity[j]);
+      return std::nullopt;
+    }
   }
   sum_up(played);
   return played;
@@ -180,17 +200,20 @@ std::optional<PlayedMotion> play(const Compilation& c, const Choices& choices, c
     diagnostics.report<DiagnosticCode::cannot_start_device>({}, c.device->name, std::string(refusal));
     return std::nullopt;
   }
-  warn_outside_valid(motion, c.network, diagnostics);
   const RecordedPath path(motion, motion.position);
+  if (!has_speeds(path, diagnostics)) return std::nullopt;
+  warn_outside_valid(motion, c.network, diagnostics);
   const std::optional<ReferenceForce> reference = ReferenceForce::of(c, choices, diagnostics);
   ValueColumns(c, motion, diagnostics);
   if (diagnostics.has_errors() || !reference) return std::nullopt;
   Diagnostics told_once;
   const std::unique_ptr<NetworkForce> force = reference->along(path, motion, told_once);
+  const auto answer = [&](PlayedSample& sample) {
+    sample.velocity[0] = path.point(sample.time).velocity;
+    sample.closed_form[0] = force->force_at(sample.time);
+  };
   const auto run = [&](auto player) {
-    return played_by(
-        player, [&force](PlayedSample& sample) { sample.closed_form[0] = force->force_at(sample.time); }, 1, 1,
-        path.end(), device.loop.sample_period);
+    return played_by(player, answer, 1, 1, path.end(), device.loop.sample_period, diagnostics);
   };
   if (c.law.scalar == ScalarType::float32) return run(DevicePlayer<float>(c, motion, path, seed, diagnostics));
   return run(DevicePlayer<double>(c, motion, path, seed, diagnostics));

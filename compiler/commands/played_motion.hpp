@@ -26,6 +26,7 @@ struct PlayedSample {
   double motor_force[2] = {};  // the same to each motor [N] or [N·m]
   bool is_limited = false;     // a motor could not make it, or the law has let go of force so that it can
   double tip[2] = {};          // of two axes: where the tip is [m]
+  double velocity[2] = {};     // of the motion itself [m/s] or [rad/s]
   double felt_at_tip[2] = {};  // felt_force, as a force there [N]
   double closed_form_at_tip[2] = {};  // [N]
 };
@@ -58,9 +59,13 @@ class Player {
   virtual double energy() const = 0;           // taken from the tool since the motion began [J]
 };
 
-// In: what tells the network's own force at a sample, and how long the motion is [s].
-PlayedMotion played_by(Player& player, const std::function<void(PlayedSample&)>& answer, unsigned axes, unsigned brakes,
-                       double end, double period);
+// False, reported, where the tool or a joint would go from one row to the next at a speed beyond all numbers.
+bool has_speeds(const RecordedPath& path, Diagnostics& diagnostics);
+
+// In: what tells the motion's velocity and the network's own force at a sample, and how long the motion is [s].
+// Refuses: forces whose squares are beyond all numbers, for these are summed up.
+std::optional<PlayedMotion> played_by(Player& player, const std::function<void(PlayedSample&)>& answer, unsigned axes,
+                                      unsigned brakes, double end, double period, Diagnostics& diagnostics);
 
 // In: a compiled network and its device, a motion of any uniform rate, straight between its rows. The tool is led along
 // it, whatever force that takes, from rest at its first position, and the simulated device of runtime/ does what it

@@ -70,7 +70,7 @@ namespace {
 
 // Without columns of velocities the slopes since the sample before, 0 in the first row.
 template <class Scalar>
-std::string simulate(const AxesCompilation& c, const JointMotion& motion) {
+std::string simulate(const AxesCompilation& c, const JointMotion& motion, Diagnostics& diagnostics) {
   Evaluation<Scalar> law(c.law);
   law.reset(std::vector<Scalar>{0, 0});
   std::string text = "time,q1,q2,v1,v2";
@@ -85,6 +85,14 @@ std::string simulate(const AxesCompilation& c, const JointMotion& motion) {
       velocity.push_back(static_cast<Scalar>(motion.velocity[joint].empty() ? slope : motion.velocity[joint][i]));
     }
     const JointCommand<Scalar> now = law.step(position, velocity);
+    const bool has_damping =
+        std::all_of(now.damping.begin(), now.damping.end(), [](Scalar b) { return all_finite(b); });
+    for (std::size_t joint = 0; joint < 2; ++joint) {
+      if (has_damping && all_finite(position[joint], velocity[joint], now.torque[joint])) continue;
+      diagnostics.report<DiagnosticCode::answer_not_finite>({}, motion.clock.time[i], motion.position[joint][i],
+                                                            velocity[joint]);
+      return text;
+    }
     text += fmt::format("{},{},{}\n", motion.clock.time[i], fmt::join(position, ","), fmt::join(velocity, ","));
     text.back() = ',';
     text += fmt::format("{},{}\n", fmt::join(now.damping, ","), fmt::join(now.torque, ","));
@@ -103,11 +111,11 @@ ExitStatus simulate_axes(const SourceFile& network, const Options& asked, Source
   const std::optional<AxesCompilation> c = compile_axes(network, options, device, diagnostics);
   if (!c || diagnostics.has_errors()) return ExitStatus::input_refused;
   if (!suits(motion->clock, c->device.joint_motion(), diagnostics)) return ExitStatus::input_refused;
+  const std::string text = options.choices.scalar == ScalarType::float64 ? simulate<double>(*c, *motion, diagnostics)
+                                                                         : simulate<float>(*c, *motion, diagnostics);
+  if (diagnostics.has_errors()) return ExitStatus::input_refused;
   if (device.axes_device) diagnostics.report<DiagnosticCode::law_alone>({}, device.axes_device->name);
-  return write_output(
-      options,
-      options.choices.scalar == ScalarType::float64 ? simulate<double>(*c, *motion) : simulate<float>(*c, *motion),
-      diagnostics);
+  return write_output(options, text, diagnostics);
 }
 
 }  // namespace

@@ -245,6 +245,15 @@ class AxesMotion(CommandTest):
         said = self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv").stdout
         self.assertRegex(said, r"error of what joint 2 feels: rms [\d.]+ N, peak [\d.]+ N\n")
 
+    def test_forces_beyond_all_numbers(self):
+        """Fails if what overflows is told as a number."""
+        net = self.network({"map": {"along": [1, 0]}, "network": KELVIN})
+        self.write("motion.csv", table([(0, 0, 0.095), (0.001, 1e308, 0.095), (0.002, -1e308, 0.095)]))
+        told = self.refused("run", net, "--device", self.device("cartesian"), "--motion", "motion.csv", "-o",
+                            "felt.csv", code="answer-not-finite").stderr
+        self.assertIn("at 0 s the force overflows: the position is 0 and the velocity ", told)
+        self.assertNotIn("felt.csv", self.files())
+
     def test_refusals(self):
         """Fails if a recording that makes no motion of the arm is played, or refused without its place."""
         net = self.network({"map": {"along": [1, 0]}, "network": KELVIN})

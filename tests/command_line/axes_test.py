@@ -148,6 +148,15 @@ class AxesTest(CommandTest):
                         self.assertEqual([same(row)
                                           for row in self.simulated(network, rows, *device, "--scalar", scalar)], told)
 
+    # If this fails, simulate tells velocities and forces that are no numbers as if they were.
+    def test_simulate_refuses_forces_beyond_all_numbers(self):
+        for position, velocity in ((1e308, "inf"), (-1e308, "-inf")):
+            self.write("motion.csv", f"time,q1,q2\n0,1,1\n0.0001,1,{position}\n")
+            told = self.refused("simulate", FIELD, "--device", PANTOGRAPH, "--input", "motion.csv",
+                                code="answer-not-finite").stderr
+            self.assertIn(f"at 0.0001 s the force overflows: the position is {position:.4g} and the velocity "
+                          f"{velocity};", told)
+
     # If this fails, a constant that reset() alone reads is not in the header: springs between two walls need no zero in
     # a sample.
     def test_two_walls_without_dampers(self):

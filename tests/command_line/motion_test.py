@@ -267,6 +267,16 @@ class Motion(CommandTest):
             _, told = self.played(net, self.device(), table(sine(2000)))
             self.assertEqual(told["brake"]["mean"], told["brake"]["most"])
 
+    def test_forces_beyond_all_numbers(self):
+        """Fails if what overflows is told as a number, in the file or in what is summed up of it."""
+        net = self.write("kelvin.json", KELVIN)
+        for position in (1e308, 1e200):
+            self.write("motion.csv", table([(0, 0), (0.001, position), (0.002, -position)]))
+            told = self.refused("run", net, "--device", self.device(), "--motion", "motion.csv", "-o", "felt.csv",
+                                code="answer-not-finite")
+            self.assertIn("at 0 s the force overflows: the position is 0 and the velocity ", told.stderr)
+            self.assertNotIn("felt.csv", self.files())
+
     def test_what_is_printed_and_written(self):
         """Fails if the errors are not reported, the file is not where it is said to be, or a run is not the same from
         the same seed."""

@@ -266,6 +266,9 @@ std::optional<PlayedMotion> play(const AxesCompilation& c, const JointMotion& mo
   for (unsigned j = 0; j < arm_axes; ++j)
     if (!has_speeds(path.joint(j), diagnostics)) return std::nullopt;
   if (!is_in_reach(c, motion, diagnostics)) return std::nullopt;
+  for (unsigned j = 0; j < arm_axes; ++j)
+    warn_of_speed(path.joint(j), arm.joints[j].encoder.max_speed, fmt::format("joint {}", j + 1),
+                  port_units(arm.motion()).velocity, motion.clock.kind_span, diagnostics);
   if (const char* refusal = simulated_arm::refusal(arm, scene_along(path, 0, seed))) {
     diagnostics.report<DiagnosticCode::cannot_start_device>({}, c.device.name, std::string(refusal));
     return std::nullopt;

@@ -170,6 +170,14 @@ bool has_speeds(const RecordedPath& path, Diagnostics& diagnostics) {
   return false;
 }
 
+void warn_of_speed(const RecordedPath& path, double limit, const std::string& what, const std::string& unit, Span span,
+                   Diagnostics& diagnostics) {
+  const std::optional<std::size_t> row = limit > 0 ? path.first_beyond(limit) : std::nullopt;
+  if (row)
+    diagnostics.report<DiagnosticCode::motion_too_fast>(span, path.at(*row), what, path.beginning(*row).velocity, unit,
+                                                        limit, unit);
+}
+
 std::optional<PlayedMotion> played_by(Player& player, const std::function<void(PlayedSample&)>& answer, unsigned axes,
                                       unsigned brakes, double end, double period, Diagnostics& diagnostics) {
   PlayedMotion played;

@@ -62,6 +62,11 @@ class Player {
 // False, reported, where the tool or a joint would go from one row to the next at a speed beyond all numbers.
 bool has_speeds(const RecordedPath& path, Diagnostics& diagnostics);
 
+// Warns where the motion of `what` is faster than the device's `limit`, 0 where there is none, both in `unit`: the loop
+// would take that for a fault.
+void warn_of_speed(const RecordedPath& path, double limit, const std::string& what, const std::string& unit, Span span,
+                   Diagnostics& diagnostics);
+
 // In: what tells the motion's velocity and the network's own force at a sample, and how long the motion is [s].
 // Refuses: forces whose squares are beyond all numbers, for these are summed up.
 std::optional<PlayedMotion> played_by(Player& player, const std::function<void(PlayedSample&)>& answer, unsigned axes,

@@ -102,14 +102,16 @@ bool asks_for_more_than_a_motion(const Options& options, Diagnostics& diagnostic
   return diagnostics.has_errors();
 }
 
-void warn_of_range(const Compilation& c, const Motion& motion, const SourceFile& file, Diagnostics& diagnostics) {
+void warn_of_limits(const Compilation& c, const Motion& motion, const SourceFile& file, Diagnostics& diagnostics) {
   const device_description& device = c.device->description;
   const double ratio = transmission<double>(device, c.network.port_motion).ratio();
+  const PortUnits units = port_units(c.network.port_motion);
   const auto [least, most] = std::minmax_element(motion.position.begin(), motion.position.end());
   const double low = device.encoder.range_low * ratio, high = device.encoder.range_high * ratio;
   if (low < high && (*least < low || *most > high))
-    diagnostics.report<DiagnosticCode::motion_beyond_encoder>({&file, 0, 0}, *least, *most, low, high,
-                                                              port_units(c.network.port_motion).position);
+    diagnostics.report<DiagnosticCode::motion_beyond_encoder>({&file, 0, 0}, *least, *most, low, high, units.position);
+  warn_of_speed({motion, motion.position}, device.encoder.max_speed * ratio, "the motion", units.velocity,
+                {&file, 0, 0}, diagnostics);
 }
 
 ExitStatus play_motion(const Options& options, const Compilation& compilation, SourceFiles& files,
@@ -119,7 +121,7 @@ ExitStatus play_motion(const Options& options, const Compilation& compilation, S
   if (!motion || !suits(*motion, compilation.network.port_motion, diagnostics)) return ExitStatus::input_refused;
   const std::string log = log_name(options, compilation);
   if (!spares_inputs(options, {log}, diagnostics)) return ExitStatus::command_line_wrong;
-  warn_of_range(compilation, *motion, *input, diagnostics);
+  warn_of_limits(compilation, *motion, *input, diagnostics);
   const std::optional<PlayedMotion> played =
       play(compilation, options.choices, *motion, options.seed.value_or(0), diagnostics);
   if (!played || diagnostics.has_errors()) return ExitStatus::input_refused;

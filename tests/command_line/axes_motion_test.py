@@ -270,6 +270,13 @@ class AxesMotion(CommandTest):
         self.write("motion.csv", table(along(lambda t: (0.045 * math.sin(2 * math.pi * t), 0.095), 0.01)))
         self.assertIn("from -45 to 45, beyond the device's range of -40 to 40 mm in x of the tip",
                       self.dashpot(*run, "-o", "felt.csv").stderr)
+        self.write("motion.csv", table([(0, q1, q2), (0.1, q1, q2 + 0.01), (0.2, q1, q2)]))
+        slow = self.device(encoders={"max_speed": "0.09 rad/s"})
+        self.assertIn("warning: from 0 s joint 2 goes at 0.1 rad/s, faster than the device's 0.09 rad/s; its "
+                      "servo loop would go safe there [motion-too-fast]",
+                      self.dashpot("run", net, "--device", slow, "--motion", "motion.csv", "-o", "felt.csv").stderr)
+        self.device()
+        self.assertNotIn("[motion-too-fast]", self.dashpot(*run, "-o", "felt.csv").stderr)
         for more in (["--hand", "firm"], ["--for", "1"]):
             self.refused(*run, *more, code="not-with-motion", status=COMMAND_LINE_WRONG)
         self.refused(*run, "-o", "motion.csv", code="would-overwrite-input", status=COMMAND_LINE_WRONG)

@@ -277,6 +277,17 @@ class Motion(CommandTest):
             self.assertIn("at 0 s the force overflows: the position is 0 and the velocity ", told.stderr)
             self.assertNotIn("felt.csv", self.files())
 
+    def test_a_motion_faster_than_the_device_allows(self):
+        """Fails if a motion on which the loop would go safe is played without a word, or another warned of."""
+        net = self.write("kelvin.json", KELVIN)
+        self.write("motion.csv", table([(0, 0), (0.1, 0.001), (0.2, -0.002), (0.3, -0.002)]))
+        run = ["run", net, "--motion", "motion.csv", "-o", "felt.csv", "--device"]
+        self.assertIn("motion.csv:1:1: warning: from 0.1 s the motion goes at -0.03 m/s, faster than the device's 0.02 "
+                      "m/s; its servo loop would go safe there [motion-too-fast]",
+                      self.dashpot(*run, self.device(encoder={"max_speed": "20 mm/s"})).stderr)
+        for more in ({"encoder": {"max_speed": "31 mm/s"}}, {}):
+            self.assertNotIn("[motion-too-fast]", self.dashpot(*run, self.device(**more)).stderr)
+
     def test_what_is_printed_and_written(self):
         """Fails if the errors are not reported, the file is not where it is said to be, or a run is not the same from
         the same seed."""

@@ -232,7 +232,7 @@ class RecordingReader {
   bool is_in_order(const Row& row, std::string_view line, std::size_t number) {
     const Recording& so_far = result_.recording;
     const bool is_spectrum = so_far.kind == RecordingKind::frequency;
-    if (is_spectrum && !(row.time > 0)) return refuse_time(line, number, row.time, 0);
+    if (is_spectrum && !(row.time > 0)) return refuse_frequency(line, number);
     if (so_far.time.empty() || (is_spectrum && row.time != so_far.time.back())) return true;
     if (row.time < so_far.time.back()) return refuse_time(line, number, row.time, so_far.time.back());
     if (row.time > so_far.time.back()) return true;
@@ -249,6 +249,14 @@ class RecordingReader {
     diagnostics_.report<DiagnosticCode::recording_time_falls>(place_of(lines_.path(), line, number, line, diagnostics_),
                                                               time, before);
     diagnostics_.note<DiagnosticCode::recording_time_remedy>({});
+    return false;
+  }
+
+  bool refuse_frequency(std::string_view line, std::size_t number) {
+    ++reported_;
+    diagnostics_.report<DiagnosticCode::recording_not_a_frequency>(
+        place_of(lines_.path(), line, number, line, diagnostics_));
+    diagnostics_.note<DiagnosticCode::recording_remove_row>({});
     return false;
   }
 

@@ -123,7 +123,7 @@ class _Rate(NamedTuple):
     same: float  # relative, that another rate may differ by
 
 
-def _rate_with(period, error=0.0) -> _Rate:
+def _rate_with(period, error) -> _Rate:
     """Of a period to which the times' rounding leaves an error."""
     rate, same = 1 / period, max(_SAME_RATE, error / period)
     whole = float(round(rate))
@@ -156,14 +156,14 @@ def _rate_of(time) -> _Rate:
 
     period = (seconds[-1] - seconds[0]) / len(steps)
     if len(off_step(0)) == 0:
-        return _rate_with(period)
+        return _rate_with(period, rounding[-1] / len(steps))
     line, held, allowance = seconds[0] + period * numpy.arange(len(seconds)), numpy.spacing(numpy.abs(time)), 0
     for units in [held, held + _last_digits(time)]:
         unit = max(units[0], units[-1])
         if unit <= _COARSEST_SHARE * median:
             off_line = numpy.flatnonzero(numpy.abs(seconds - line) > (unit + units) / 2 + rounding)
             if len(off_line) == 0:
-                return _rate_with(period, unit / len(steps))
+                return _rate_with(period, (unit + rounding[-1]) / len(steps))
             allowance = unit
     gaps = off_step(allowance)
     if len(gaps) > 0:

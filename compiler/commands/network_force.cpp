@@ -64,23 +64,24 @@ class OwnSteps : public NetworkForce {
   OwnSteps(const Compilation& fine, const Motion& motion, const Path& path, Diagnostics& diagnostics)
       : path_(path), law_(fine.law), values_(fine, motion, diagnostics), period_(1 / fine.rate) {
     law_.reset(path.point(0).position);
-    last_ = force_ = step(0);
+    last_ = force_ = step();
   }
 
   double force_at(double time) override {
-    Diagnostics heard_from_the_device;
     while (double(steps_) * period_ < time) {
       last_ = force_;
       ++steps_;
-      values_.set(law_, path_.piece(double(steps_) * period_), double(steps_) * period_, heard_from_the_device);
-      force_ = step(double(steps_) * period_);
+      force_ = step();
     }
     const double behind = std::clamp(double(steps_) - time / period_, 0.0, 1.0);
     return force_ + (last_ - force_) * behind;
   }
 
  private:
-  double step(double time) {
+  double step() {
+    const double time = double(steps_) * period_;
+    Diagnostics heard_from_the_device;
+    values_.set(law_, path_.piece(time), time, heard_from_the_device);
     const double position = path_.point(time).position;
     const double velocity = steps_ == 0 ? 0 : (position - position_) / period_;
     position_ = position;

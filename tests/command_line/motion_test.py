@@ -150,6 +150,14 @@ class Motion(CommandTest):
         changed, _ = self.played(TUNABLE, self.device(), table(recorded, f"time,position,{name}"))
         self.assertNotEqual([row["closed_form"] for row in still], [row["closed_form"] for row in changed])
 
+    def test_values_of_the_first_row(self):
+        """Fails if the network's own force begins with other values than the first row sets, as the device does."""
+        net = self.write("soft.json", """{"dashpot": 1, "name": "soft", "network": {"spring": "K"}, "parameters":
+            {"K": {"value": "100 N/m", "min": "10 N/m", "max": "200 N/m", "tunable": true}}}""")
+        rows, _ = self.played(net, self.device(), table([(k / 2000, 0.01, 49) for k in range(40)], "time,position,K"))
+        self.assertAlmostEqual(rows[0]["motor_force"], 0.7)  # of a softer spring F √(k′/k), all energy that there is
+        self.assertAlmostEqual(rows[0]["closed_form"], rows[0]["motor_force"], delta=1e-15)
+
     def test_a_static_curve(self):
         """Fails if a network behind a static curve is compared with the straight one that stands in its file."""
         net = self.write("curve.json",

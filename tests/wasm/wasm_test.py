@@ -261,6 +261,7 @@ class Wrapper(WasmTest):
           import { deepEqual, throws } from 'node:assert/strict';
           import { load } from './spring/index.js';
           const one = await load(), other = await load();
+          throws(() => one.lead(0.1, 0), { name: 'RangeError', message: 'a motion begins with leadFrom(position)' });
           one.leadFrom(0.1);
           other.leadFrom(0.1);
           for (const wrong of [NaN, Infinity, -Infinity, undefined, '0.1']) {

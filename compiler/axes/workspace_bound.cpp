@@ -214,7 +214,7 @@ class PortNeed {
   Interval range_;
 };
 
-constexpr std::size_t most_sums = 64;
+constexpr std::size_t most_sums = 64;  // over each part of the workspace: of six ports with two ends each
 
 // One matrix that is no less than either end, so that their mean and what they differ by at most are enough.
 Symmetric<Sloped> above_both(const Symmetric<Sloped>& one, const Symmetric<Sloped>& other, const Pair<double>& weight) {

@@ -113,7 +113,7 @@ std::string fit_json(const Fit& fit, const std::vector<Recording>& recordings) {
   for (std::size_t i = 0; i < fit.path.size(); ++i) {
     const PathEntry& entry = fit.path[i];
     json["sizes"].push_back({{"relaxations", entry.model.count(TermKind::maxwell)},
-                             {"slips", entry.model.count(TermKind::stop) + entry.model.count(TermKind::sliding)},
+                             {"slips", entry.model.slip_count()},
                              {"springpots", entry.model.count(TermKind::springpot)},
                              {"parameters", entry.parameters},
                              {"rms", number(entry.rms)},

@@ -274,9 +274,8 @@ class FitPage {
       const PathEntry& entry = fit_.path[i];
       text += fmt::format("<tr><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td></tr>\n",
                           entry.model.count(TermKind::maxwell), i == fit_.chosen ? " (chosen)" : "",
-                          entry.model.count(TermKind::stop) + entry.model.count(TermKind::sliding),
-                          entry.model.count(TermKind::springpot), entry.parameters, escaped(error(entry.rms)),
-                          entry.criterion);
+                          entry.model.slip_count(), entry.model.count(TermKind::springpot), entry.parameters,
+                          escaped(error(entry.rms)), entry.criterion);
     }
     return text + "</tbody></table></div>\n";
   }

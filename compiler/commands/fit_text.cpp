@@ -133,7 +133,7 @@ class FitText {
         "springpots  parameters         rms        BIC\n";
     for (std::size_t i = 0; i < fit_.path.size(); ++i) {
       const PathEntry& entry = fit_.path[i];
-      const std::size_t slips = entry.model.count(TermKind::stop) + entry.model.count(TermKind::sliding);
+      const std::size_t slips = entry.model.slip_count();
       text += fmt::format("{} {:>11}  {:>5}  {:>10}  {:>10}  {:>10}  {:>9.2f}\n", i == fit_.chosen ? "*" : " ",
                           entry.model.count(TermKind::maxwell), slips, entry.model.count(TermKind::springpot),
                           entry.parameters, error(entry.rms), entry.criterion);

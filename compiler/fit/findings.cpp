@@ -132,8 +132,7 @@ class Findings {
   void look_at_floor() {
     if (!fit_.floor.is_certified() && fit_.floor.model.residual_sum > 1e-20 * problem_.target().squaredNorm())
       add(Finding::Kind::floor_not_certified, "", {fit_.floor.largest_cosine});
-    const bool is_linear =
-        !fit_.model.curve && fit_.model.count(TermKind::stop) + fit_.model.count(TermKind::sliding) == 0;
+    const bool is_linear = !fit_.model.curve && fit_.model.slip_count() == 0;
     const Model& least = is_linear ? fit_.floor.model : fit_.model;
     const double left = is_linear ? fit_.floor_rms : fit_.rms;
     if (!fit_.noise || !is_felt(left) || left <= 3 * *fit_.noise) return;
@@ -195,7 +194,7 @@ class Findings {
 
   void look_at_travel() {
     const Travel travel = travel_of(problem_.recordings());
-    const bool has_slips = fit_.model.count(TermKind::stop) + fit_.model.count(TermKind::sliding) > 0;
+    const bool has_slips = fit_.model.slip_count() > 0;
     const bool asked = fit_.choices.reduction.slips != SlipChoice::none;
     if ((has_slips || asked || softens()) && !travel.has_reversal) add(Finding::Kind::slips_or_softening);
     const bool is_one_rate = travel.fastest < 1.5 * travel.slowest;

@@ -63,8 +63,7 @@ class Fitter {
     }
     measure();
     const bool has_no_curve = fit_.model.curve && curve_stiffness(fit_.model).value == 0;
-    const bool has_slips = fit_.model.count(TermKind::stop) + fit_.model.count(TermKind::sliding) > 0;
-    if (has_no_curve && has_slips) {
+    if (has_no_curve && fit_.model.slip_count() > 0) {
       diagnostics_.report<DiagnosticCode::fit_choices_contradict>(
           {}, "--shape", "--slips",
           "only springs behind slips hold the tool in these recordings, and a static curve is the force of a spring "

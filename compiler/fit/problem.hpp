@@ -87,6 +87,7 @@ struct Model {
   double& weight(std::size_t term) { return weights[static_cast<Eigen::Index>(term)]; }
   double weight(std::size_t term) const { return weights[static_cast<Eigen::Index>(term)]; }
   std::size_t count(TermKind kind) const;
+  std::size_t slip_count() const { return count(TermKind::stop) + count(TermKind::sliding); }
 };
 
 // Weighted columns of a model's terms, each file's times its gain.

@@ -18,11 +18,11 @@
 #include "linear/motion_map.hpp"
 #include "linear/reach.hpp"
 #include "linear/validity.hpp"
+#include "lower/begun_at_rest.hpp"
 #include "lower/behind_map.hpp"
 #include "lower/drop_unread.hpp"
 #include "lower/roll.hpp"
 #include "lower/shed.hpp"
-#include "lower/spell_out.hpp"
 #include "network/port_units.hpp"
 #include "slip_choice.hpp"
 #include "syntax/parse_network.hpp"
@@ -170,16 +170,16 @@ bool put_behind_curve(Network& network, Network& present, const NormalForm& form
 void certify_law(Compilation& c, const Choices& choices) {
   const SampledLoop loop = sampled_loop(c.port, 1 / c.rate);
   const std::optional<SlipMotor> slips = slip_motor(c.network, c.form, c.decomposition, choices, loop);
-  if (c.network.map) {
-    c.certificate = certify_behind_curve(c.law, c.network, slips, c.port, 1 / c.rate);
+  c.certificate =
+      c.network.map ? certify_behind_curve(c.law, c.network, slips, c.port, 1 / c.rate) : certify(c.law, loop, slips);
+  const bool sheds = c.certificate.limits.rule == LimitRule::sheds;
+  const MotorReach reach = reach_of(c.certificate.loop, choices.scalar);
+  if (sheds) c.law = told_of_motor(std::move(c.law), reach);
+  if (c.network.map)
     c.law = without_unread_locals(
         behind_map(std::move(c.law), *c.network.map, c.certificate.added_damping, c.network.port_motion));
-  } else {
-    c.certificate = certify(c.law, loop, slips);
-  }
-  if (c.certificate.limits.rule == LimitRule::sheds)
-    c.law = with_shedding(std::move(c.law), reach_of(c.certificate.loop, choices.scalar), c.network.port_motion);
-  c.law = spelled_out(std::move(c.law), c.network.port_motion);
+  if (sheds) c.law = with_shedding(std::move(c.law), reach, c.network.port_motion);
+  c.law = begun_at_rest(std::move(c.law));
 }
 
 }  // namespace
@@ -248,7 +248,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
     std::optional<UpdateLaw> law = discretise_tunable(result.network, result.form, result.decomposition, choices,
                                                       result.rate, result.port, diagnostics);
     if (!law) return std::nullopt;
-    result.law = std::move(*law);
+    result.law = without_unread_locals(std::move(*law));
   } else {
     result.law = rolled(
         without_unread_locals(discretise(result.network, result.form, result.decomposition, choices, result.rate)),

@@ -14,7 +14,7 @@
 #include "law/representable.hpp"
 #include "lower/drop_unread.hpp"
 #include "lower/joint_law.hpp"
-#include "lower/spell_out.hpp"
+#include "lower/begun_at_rest.hpp"
 #include "syntax/parse_axes.hpp"
 
 namespace dashpot::compiler {

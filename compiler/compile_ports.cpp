@@ -13,7 +13,7 @@
 #include "law/representable.hpp"
 #include "lower/drop_unread.hpp"
 #include "lower/parallel_law.hpp"
-#include "lower/spell_out.hpp"
+#include "lower/begun_at_rest.hpp"
 #include "stage_times.hpp"
 
 namespace dashpot::compiler {

@@ -14,10 +14,11 @@
 #include "certify/unproved.hpp"
 #include "certify/quantisation.hpp"
 #include "discretise/rounding.hpp"
+#include "discretise/tunable_programs.hpp"
 #include "law/add_damping.hpp"
 #include "law/cost.hpp"
 #include "law/representable.hpp"
-#include "lower/spell_out.hpp"
+#include "lower/drop_unread.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -222,10 +223,9 @@ namespace {
 // Every operation of a step is off by a unit of its result, which is no larger than the sum of the terms' sizes.
 double rounding_of_step(const UpdateLaw& law) {
   const double unit = unit_roundoff(law.scalar);
-  const UpdateLaw steps = spelled_out(law, motion::translation);  // units are nothing to their number
-  const Cost cost = cost_of(steps, steps.output);
+  const Cost cost = cost_of(law, law.output);
   // The error bound covers the updates of modes, but not those of springs whose parameters change.
-  const Cost update = law.tunable ? cost_of(steps, steps.update) : Cost{};
+  const Cost update = law.tunable ? cost_of(law, law.update) : Cost{};
   return law.relative_error_bound + unit * double(cost.additions + cost.multiplications + cost.coupled +
                                                   update.additions + update.multiplications);
 }
@@ -299,16 +299,11 @@ double add_missing(UpdateLaw& law, const PassivityBound& bound, const SampledLoo
   return added;
 }
 
-void set_brake_reach(UpdateLaw& law, double damping) {
-  law.tunable->brake.max_damping = damping;
-  for (Coefficient& c : law.coefficients)
-    if (c.role == ConstantRole::brake_reach) c.values.front() = damping;
-}
-
 // With tunables. What is added to b leaves b less of the brake's reach, and the motor more: found in a few rounds, or
 // not.
 void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
-  const double reach = law.tunable->brake.max_damping;
+  TunableBrake& brake = law.tunable->brake;
+  const double reach = brake.max_damping;
   BoxMotor box = box_of(law, loop);
   result.bound = box_bound(box, loop);
   const auto missing = [&] {
@@ -320,17 +315,17 @@ void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
     added = sum_above(missing(), 32 * unit_roundoff(law.scalar) * (box.largest_brake + missing()), law.scalar);
     const bool is_beyond = round == 20 || !(added < loop.max_damping);
     if (is_beyond) added = 0;
-    set_brake_reach(
-        law, is_beyond
-                 ? reach
-                 : std::min(reach, nearest((loop.max_damping - added) * (1 - unit_roundoff(law.scalar)), law.scalar)));
+    brake.max_damping =
+        is_beyond ? reach
+                  : std::min(reach, nearest((loop.max_damping - added) * (1 - unit_roundoff(law.scalar)), law.scalar));
     box = box_of(law, loop);
     result.bound = box_bound(box, loop);
     if (is_beyond) break;
   }
   if (is_proved) result.minimum_damping = missing();
   result.added_damping = added;
-  if (added > 0) law = with_steady_damping(std::move(law), added);
+  brake.added = added;
+  if (added > 0) law = without_unread_locals(with_programs(std::move(law)));
   result.quantisation_gain = box.quantisation_gain;
   law.damping = box.least_brake + added;
   law.largest_damping = box.largest_brake + added;

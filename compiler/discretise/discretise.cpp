@@ -274,7 +274,7 @@ std::optional<UpdateLaw> discretise_tunable(const Network& network, const Normal
                                   sample_period, device, diagnostics);
   law.mode_form = ModeForm::delta;
   if (!law.tunable) return std::nullopt;
-  return with_programs(std::move(law), network.port_motion, network.map.has_value());
+  return with_programs(std::move(law));
 }
 
 }  // namespace dashpot::compiler

@@ -89,17 +89,16 @@ class TablesBuilder {
     const bool is_double = choices_.scalar == ScalarType::float64;
     TunableHead& head = tables_.head;
     head.rate = to_scalar(1 / period_);
+    head.port_motion = network_.port_motion;
     tables_.is_exact = choices_.scheme == Scheme::exact;
     head.retention = to_scalar(exp(-period_ / offset_time));
     tables_.least_share = is_double ? 0x1p-24 : 0x1p-10;
-    tables_.brake = {brake_.follows,
-                     to_scalar(Real(brake_.damping)),
-                     0,
-                     brake_.max_damping ? to_scalar(Real(*brake_.max_damping)) : largest_finite(choices_.scalar),
-                     0,
-                     brake_.text};
-    if (decomposition_.slips.coil_share < 1)
-      tables_.brake.assured_share = to_scalar(Real(decomposition_.slips.assured_share));
+    TunableBrake& brake = tables_.brake;
+    brake.follows = brake_.follows;
+    brake.damping = to_scalar(Real(brake_.damping));
+    brake.max_damping = brake_.max_damping ? to_scalar(Real(*brake_.max_damping)) : largest_finite(choices_.scalar);
+    brake.text = brake_.text;
+    if (decomposition_.slips.coil_share < 1) brake.assured_share = to_scalar(Real(decomposition_.slips.assured_share));
     head.static_spring = no_index;
     // Behind a static curve's map a surface lies where the map begins.
     const double surface = network_.surface_behind_map();

@@ -7,6 +7,7 @@
 #include "discretise/contact_surface.hpp"
 #include "discretise/law_writer.hpp"
 #include "discretise/rounding.hpp"
+#include "discretise/tuned_springs.hpp"
 #include "law/check_law.hpp"
 
 namespace dashpot::compiler {
@@ -26,6 +27,9 @@ constexpr std::string_view names_taken =
     "released pull opposing pushed_force position_change slips_force slips_feedthrough slips_brake slips_wanted "
     "slips_gain share sampled shifted literals ";
 
+// The same of a law that sheds (lower/shed.cpp).
+constexpr std::string_view names_of_shedding = "most least last_command motor_limit motor_step all_kept none_kept ";
+
 // The same of the map of a static curve (lower/behind_map.cpp).
 constexpr std::string_view names_of_map =
     "centre distance in_cells cells_per_length last_cell cell cell_begins within map_a map_b map_c map_e map_cubic "
@@ -34,20 +38,25 @@ constexpr std::string_view names_of_map =
 
 class ProgramsBuilder {
  public:
-  ProgramsBuilder(UpdateLaw law, motion port_motion)
-      : law_(std::move(law)), writer_(law_, port_motion), tables_(*law_.tunable), head_(tables_.head) {}
+  explicit ProgramsBuilder(UpdateLaw law)
+      : law_(std::move(law)),
+        writer_(law_, law_.tunable->head.port_motion),
+        tables_(*law_.tunable),
+        head_(tables_.head) {}
 
-  UpdateLaw build(bool behind_curve) {
+  UpdateLaw build() {
     take(names_taken);
-    if (behind_curve) take(names_of_map);
+    if (head_.map.is_there) take(names_of_map);
+    if (tables_.sheds()) take(names_of_shedding);
     declare();
     write_coefficients();
     write_brake_rule();
+    springs_->carry_over();
+    springs_->numbers().begin(law_.output);
     head_.contact.is_there ? write_contact_output() : write_output();
     write_update();
     write_rest();
-    call(law_.energy, law_.stored, {Callee::stored_energy},
-         "V + T: in the springs, and what changes of parameters have set free");
+    springs_->write_energy();
     check_law(law_, "discretise");
     return std::move(law_);
   }
@@ -64,6 +73,10 @@ class ProgramsBuilder {
     law_.force = writer_.scalar("force", writer_.force(), "motor's part m", Role::local);
     law_.stored = writer_.scalar("stored", "J", "energy in the springs", Role::local);
     held_ = state("held_force", writer_.force(), "π, what springs hold");
+    if (tables_.sheds()) {
+      law_.share = state("sampled_share", "1", "of all forces, what is kept");
+      law_.variables[law_.share].rest_value = 1;
+    }
     for (Tunable& t : tables_.tunables) {
       const bool is_like_kept = t.name.starts_with("sampled_");  // as what is kept of a sample is called
       t.value = writer_.scalar(writer_.unique(is_like_kept ? joined("parameter", t.name) : t.name), t.unit, "parameter",
@@ -81,13 +94,13 @@ class ProgramsBuilder {
     const bool has_meshes = has(PartKind::mesh);
     step_stiffness_ = tuned(has_meshes ? "springs_stiffness" : "step_stiffness", writer_.stiffness(),
                             "what springs answer in a sample");
-    call(law_.tune, step_stiffness_, {Callee::set, given}, "");
-    call(law_.carry, held_, {Callee::held}, "");
+    springs_.emplace(writer_, tables_, given, held_);
+    springs_->tune(step_stiffness_);
     for_each_part([&](const BlockPart& part) {
       if (part.kind == PartKind::damper) feedthrough_ = writer_.plus(feedthrough_, number(part.damping));
     });
     viscosity_ = feedthrough_;
-    if (has_meshes) write_meshes(given);
+    if (has_meshes) write_meshes();
     if (feedthrough_ == nothing) feedthrough_ = none();
     if (!follows_viscosity()) return;
     for_each_part([&](const BlockPart& part) {
@@ -127,17 +140,17 @@ class ProgramsBuilder {
     given.push_back(tuned_one("loss", loss_means, writer_.multiply(x, kept), "α = x φ"));
   }
 
-  void write_meshes(const std::vector<ExpressionId>& given) {
+  void write_meshes() {
     const VariableId stiffness = tuned("mesh_stiffness", writer_.stiffness(), "what meshes answer in a sample"),
                      through = tuned("mesh_feedthrough", writer_.damping(), "b∞ of the meshes");
-    call(law_.tune, stiffness, {Callee::meshes, {}, CallResult::stiffness, {{CallResult::feedthrough, through}}}, "");
+    springs_->tune_meshes(stiffness, through);
     const VariableId both = tuned("step_stiffness", writer_.stiffness(), "what all answer in a sample");
     writer_.assign(law_.tune, both, writer_.add(writer_.read(step_stiffness_), writer_.read(stiffness)), "");
     step_stiffness_ = both;
     feedthrough_ = writer_.plus(feedthrough_, writer_.read(through));
     if (!follows_viscosity()) return;
     const VariableId viscosity = tuned("mesh_viscosity", writer_.damping(), "of the meshes at low frequency");
-    call(law_.tune, viscosity, {Callee::viscosity, given}, "");
+    springs_->tune_viscosity(viscosity);
     viscosity_ = writer_.plus(viscosity_, writer_.read(viscosity));
   }
 
@@ -312,10 +325,6 @@ class ProgramsBuilder {
   }
   ExpressionId product(ExpressionId first, VariableId second) { return writer_.multiply(first, writer_.read(second)); }
 
-  void call(std::vector<Statement>& program, VariableId target, Call step, std::string purpose) {
-    program.push_back({target, nothing, std::move(purpose), {}, std::move(step)});
-  }
-
   // m = g Δu + π + σ + (b∞ − b) u̇, of slips σ
   void write_output() {
     law_.rest_position = state("last_position", writer_.length(), "u of the sample before");
@@ -326,14 +335,14 @@ class ProgramsBuilder {
     ExpressionId sum = writer_.add(product(stiffness(), change_), writer_.read(held_));
     if (tables_.has_slips()) {
       const VariableId slips = local("slips_force", writer_.force(), "σ, of all slips");
-      call(law_.output, slips, {Callee::slip, {writer_.read(change_)}}, "σ of all slips");
+      springs_->slips().write_step(slips, writer_.read(change_));
       sum = writer_.add(sum, writer_.read(slips));
     }
     ExpressionId brake = damping(), driven = gain();
     sum = left_to_brake(sum, brake, &driven);
     writer_.assign(law_.output, law_.force, writer_.add(sum, product(driven, law_.velocity)), "m = f − b u̇");
     law_.brake = local("brake", writer_.damping(), "b");
-    writer_.assign(law_.output, law_.brake, brake, "b");
+    writer_.assign(law_.output, law_.brake, with_added(brake), "b");
     law_.last_brake = state("last_brake", writer_.damping(), "b of the sample before");
     writer_.assign(law_.keep, law_.last_brake, writer_.read(law_.brake), "");
   }
@@ -343,17 +352,12 @@ class ProgramsBuilder {
     if (!head_.slip_rule.takes_part) return force;
     const VariableId now = local("slips_feedthrough", writer_.stiffness(), "b∞/h behind slips, left to the brake"),
                      damping = local("slips_brake", writer_.damping(), "b of what is behind slips");
-    Call step = {Callee::slip_brake,
-                 {writer_.read(law_.position), writer_.read(left_)},
-                 CallResult::now,
-                 {{CallResult::damping, damping}}};
     brake = writer_.add(brake, writer_.read(damping));
     const bool makes_up = gain != nullptr && make_up_ != nothing;
     const VariableId wanted =
         makes_up ? local("slips_wanted", writer_.damping(), "b of what is behind slips, where the coil is going")
                  : no_variable;
-    if (makes_up) step.found.push_back({CallResult::wanted, wanted});
-    call(law_.output, now, std::move(step), "b of the slips' regime");
+    springs_->slips().write_brake({now, damping, wanted}, law_.position, writer_.read(left_));
     if (makes_up) {
       const VariableId slips_gain =
           local("slips_gain", writer_.damping(), "what the motor makes up for a coil on its way");
@@ -376,9 +380,7 @@ class ProgramsBuilder {
       sum = writer_.add(product(stiffness(), change_), writer_.read(held_));
     } else {
       const VariableId pushed = local("pushed_force", writer_.force(), "of all slips and what is beside them");
-      call(law_.output, pushed,
-           {Callee::push, {writer_.read(surface.approach())}, CallResult::force, {{CallResult::change, change_}}},
-           "f of all slips, and Δs");
+      springs_->slips().write_push(pushed, writer_.read(surface.approach()), change_);
       const ExpressionId through =
           named("feedthrough_stiffness", writer_.stiffness(), "b∞/T", writer_.multiply(feedthrough_, rate()), "b∞/T");
       sum = writer_.subtract(writer_.read(pushed), product(through, change_));
@@ -394,25 +396,34 @@ class ProgramsBuilder {
     place_ = surface.now();
     if (head_.static_spring == no_index && tables_.has_slips()) return;
     place_ = local("surface_back", writer_.length(), "s, where what was shed has followed the tool");
-    call(law_.output, place_, {Callee::follow, {writer_.read(surface.now()), writer_.read(surface.depth())}},
-         "a dent comes back with the tool");
+    writer_.assign(law_.output, place_, springs_->followed(writer_.read(surface.now()), writer_.read(surface.depth())),
+                   tables_.sheds() ? "a dent comes back with the tool" : "s");
   }
 
+  // Separate statements, so that every compiler creates the states in the same order.
   void write_update() {
     const VariableId placed = writer_.kept(place_);
-    call(law_.update, held_, {Callee::update, {writer_.read(writer_.kept(change_)), writer_.read(placed)}}, "");
+    const VariableId change = writer_.kept(change_);
+    springs_->write_update(writer_.read(change), writer_.read(placed));
     writer_.assign(law_.update, law_.rest_position, writer_.read(placed), head_.contact.is_there ? "s₋ = s" : "u₋ = u");
   }
 
   void write_rest() {
-    call(law_.rest, held_, {Callee::reset, {writer_.read(law_.rest_position)}}, "");
+    springs_->write_rest(writer_.read(law_.rest_position));
     ExpressionId resting = damping();
     if (head_.slip_rule.takes_part) {
       const VariableId slips = state("resting_brake", writer_.damping(), "b of what is behind slips that hold");
-      call(law_.rest, slips, {Callee::resting_brake, {writer_.read(left_)}}, "");
+      springs_->slips().write_resting_brake(slips, writer_.read(left_));
       resting = writer_.add(resting, writer_.read(slips));
     }
-    if (!head_.contact.is_there) writer_.assign(law_.rest, law_.last_brake, resting, "");
+    if (!head_.contact.is_there) writer_.assign(law_.rest, law_.last_brake, with_added(resting), "");
+  }
+
+  // What the certificate adds in every regime.
+  ExpressionId with_added(ExpressionId brake) {
+    if (tables_.brake.added == 0) return brake;
+    return writer_.add(brake, writer_.constant("steady_damping", writer_.damping(), "of what no slip changes",
+                                               tables_.brake.added, ConstantRole::steady_damping));
   }
 
   UpdateLaw law_;
@@ -423,12 +434,25 @@ class ProgramsBuilder {
   std::map<std::tuple<std::string, std::string, double>, ExpressionId> constants_;
   VariableId held_, change_, place_, step_stiffness_, steady_brake_, velocity_gain_, left_;
   ExpressionId feedthrough_ = nothing, viscosity_ = nothing, make_up_ = nothing;
+  std::optional<TunedSprings> springs_;  // once the numbers are there
 };
+
+UpdateLaw without_programs(UpdateLaw law) {
+  UpdateLaw bare;
+  bare.scalar = law.scalar;
+  bare.scheme = law.scheme;
+  bare.state_input = law.state_input;
+  bare.sample_period = law.sample_period;
+  bare.damping = law.damping;
+  bare.largest_damping = law.largest_damping;
+  bare.flush_threshold = law.flush_threshold;
+  bare.mode_form = law.mode_form;
+  bare.tunable = std::move(law.tunable);
+  return bare;
+}
 
 }  // namespace
 
-UpdateLaw with_programs(UpdateLaw law, motion port_motion, bool behind_curve) {
-  return ProgramsBuilder(std::move(law), port_motion).build(behind_curve);
-}
+UpdateLaw with_programs(UpdateLaw law) { return ProgramsBuilder(without_programs(std::move(law))).build(); }
 
 }  // namespace dashpot::compiler

@@ -1,14 +1,13 @@
-// The programs of a law with tunable parameters: what is remembered from sample to sample, around calls for its tables.
+// The programs of a law with tunable parameters.
 #pragma once
-
-#include <dashpot/command.hpp>
 
 #include "law/update_law.hpp"
 
 namespace dashpot::compiler {
 
-// In: a law with its tables, and without programs. Out: the same with them. `behind_curve`: a static curve's map will
-// be written in front of it.
-UpdateLaw with_programs(UpdateLaw law, motion port_motion, bool behind_curve);
+// In: a law with its tables. Out: the same with the programs that follow from them; those that it had are left out.
+// Where it sheds, the command within the motor's limits is still to be written (lower/shed.hpp), and so is the map of a
+// static curve (lower/behind_map.hpp).
+UpdateLaw with_programs(UpdateLaw law);
 
 }  // namespace dashpot::compiler

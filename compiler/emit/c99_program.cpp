@@ -165,7 +165,7 @@ class C99Printer {
     std::set<CoefficientId> constants;
     for (const Program* program : read)
       for (const Statement& statement : *program)
-        each_expression(law_, statement, [&](const Expression& e) {
+        each_expression(law_, statement.value, [&](const Expression& e) {
           if (facts_of(e.operation).refers_to == Referent::coefficient) constants.insert(e.coefficient);
           guards |= facts_of(e.operation).guards > 0;
         });

@@ -131,9 +131,7 @@ class Check {
       require(law_.couplings.has(tree->coupling), "a step solves no coupling");
     if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
       require(law_.networks.has(network->network), "a step solves no network");
-    const bool calls = std::holds_alternative<Call>(statement.step);
-    require(!calls || law_.tunable, "a call for tunables without their tables");
-    require(law_.variables.has(statement.target) && (calls || law_.expressions.has(statement.value)),
+    require(law_.variables.has(statement.target) && law_.expressions.has(statement.value),
             "a statement without target or value");
   }
 
@@ -143,7 +141,7 @@ class Check {
       require(size == 1 || (size == target.size && lanes.count == target.lanes.count),
               fmt::format("'{}' does not fit into '{}'", name, target.name));
     };
-    each_expression(law_, statement, [&](const Expression& e) {
+    each_expression(law_, statement.value, [&](const Expression& e) {
       if (e.operation == Operation::read) {
         const Variable& read = law_.variables[e.variable];
         require_fit(read.name, read.size, read.lanes);

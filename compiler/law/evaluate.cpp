@@ -323,11 +323,6 @@ void Evaluation<Scalar>::take(const SolveNetwork& step, const Statement& stateme
 }
 
 template <class Scalar>
-void Evaluation<Scalar>::take(const Call&, const Statement&, Scalar) {
-  throw std::logic_error("evaluate: a call that is not spelled out");
-}
-
-template <class Scalar>
 void Evaluation<Scalar>::give_held(const SolvedSlips& solved, Lists& lists) const {
   for (std::size_t i = 0; i < solved.held.size(); ++i)
     lists.held[i] = solved.held[i] == no_variable ? Scalar(0) : at(solved.held[i])[0];

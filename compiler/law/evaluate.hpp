@@ -91,7 +91,6 @@ class Evaluation {
   void take(const Assign& step, const Statement& statement, Scalar given);
   void take(const SolveTree& step, const Statement& statement, Scalar given);
   void take(const SolveNetwork& step, const Statement& statement, Scalar given);
-  void take(const Call& step, const Statement& statement, Scalar given);
   void take_turn(const GuardInTurn& guard, std::size_t& turn);
   void solve(const Coupling& coupling, Solver& solver, VariableId target, Scalar change);
   void solve(const SlipNetwork& network, NetworkSolver& solver, VariableId target, Scalar change);

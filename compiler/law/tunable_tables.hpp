@@ -1,7 +1,8 @@
-// What a law with tunable parameters has beside its programs: the parameters, and the network's structure, from which
-// lower/spell_out writes what its calls stand for (theory, section 6, "Changing parameters while running").
+// What a law with tunable parameters is written from: the parameters, the network's structure, and what the certificate
+// has settled (theory, section 6, "Changing parameters while running").
 #pragma once
 
+#include <dashpot/command.hpp>
 #include <dashpot/slip_tree.hpp>
 #include <dashpot/tunable_range.hpp>
 
@@ -18,23 +19,6 @@
 namespace dashpot::compiler {
 
 struct Variable;
-
-// What a call stands for.
-enum class Callee : std::uint8_t {
-  set,        // given the law's numbers: g of what joins tool and ground without a slip, apart from dampers and meshes
-  meshes,     // after `set`: what it has found for the meshes there
-  viscosity,  // given the law's numbers: the meshes' viscosity at low frequency
-  held,       // π of all that joins tool and ground without a slip
-  reset,      // given a position at which the law rests: π
-  resting_brake,  // after `reset`, given what the brake has left for slips: the damping that they leave to it
-  slip,           // given a change: the force of all slips
-  push,           // given the approach to a surface: the force of all behind it and the surface's change
-  slip_brake,     // given the tool's position and what the brake has left for slips: the damping that they leave to it
-  limit,          // given the wanted force: the force within the motor's limits and the share that is kept of all
-  follow,         // given where a surface would be and the tool's depth: where it is
-  update,         // of the states, given a change to a place: the force that is held
-  stored_energy,  // in the springs, and set free by changes of parameters
-};
 
 // What a part of a block is. Parts stand in parallel.
 enum class PartKind : std::uint8_t {
@@ -139,6 +123,7 @@ struct TunableHead {
   int static_spring;  // the spring that joins tool and ground directly, or none
   TunableContact contact;
   TunableSlipRule slip_rule;
+  motion port_motion = motion::translation;
   double motor_limit = 0;  // of its force; 0: none [N]
   double motor_step = 0;   // of its change in a period; 0: none [N]
   TunableMap map = {false, 0, 0};
@@ -205,7 +190,8 @@ struct TunableBrake {
   BrakeFollows follows = BrakeFollows::constant;
   double damping = 0;        // of constant and within_viscosity [N·s/m]
   int observed = 0;          // number, of observed
-  double max_damping = 0;    // what the brake can give [N·s/m]
+  double max_damping = 0;    // what the brake can give, apart from what is added [N·s/m]
+  double added = 0;          // by the certificate, to what it gives in every regime [N·s/m]
   double assured_share = 0;  // of b, what the motor may make up by an estimate while the coil is on its way [1]
   std::string text;          // what it follows, for people
 };

@@ -144,22 +144,12 @@ struct SolveNetwork {
   SlipNetworkId network;  // the same of slips outside a tree
 };
 
-// What a call returns: its value, or members of it.
-enum class CallResult : std::uint8_t { value, stiffness, feedthrough, damping, force, change, now, wanted, share };
-
-struct Call {
-  Callee callee;
-  std::vector<ExpressionId> given = {};                       // variables or constants, which may be read several times
-  CallResult result = CallResult::value;                      // of the target
-  std::vector<std::pair<CallResult, VariableId>> found = {};  // assigned beside it
-};
-
 struct Statement {
   VariableId target;
-  ExpressionId value;                             // nothing of a call
+  ExpressionId value;
   std::string purpose;                            // the equation, as the literature writes it
   std::vector<std::vector<std::size_t>> origins;  // for each place of the target, indices into Network::elements
-  std::variant<Assign, SolveTree, SolveNetwork, Call> step = Assign{};
+  std::variant<Assign, SolveTree, SolveNetwork> step = Assign{};
 
   bool assigns() const { return std::holds_alternative<Assign>(step); }
 };
@@ -288,7 +278,7 @@ struct UpdateLaw {
 
   std::optional<JointPorts> joints;  // of a law of several joints
 
-  std::optional<TunableTables> tunable;  // of a network with tunables: what the programs call
+  std::optional<TunableTables> tunable;  // of a network with tunables: what the programs are written from
 
   VariableId position;  // the inputs
   VariableId velocity;

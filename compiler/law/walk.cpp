@@ -28,17 +28,14 @@ struct SolverReads {
       visit_all(*numbers, visit);
     visit_all({network.tuned->through}, visit);
   }
-  void operator()(const Call& step) const {
-    for (const ExpressionId given : step.given) each_read(law, given, visit);
-  }
 };
 
 template <class Visit>
 void each_expression(const UpdateLaw& law, const Visit& visit) {
   for (const std::vector<Statement>* program : programs(law))
-    for (const Statement& statement : *program) each_expression(law, statement, visit);
+    for (const Statement& statement : *program) each_expression(law, statement.value, visit);
   for (const std::vector<Statement>* program : {&law.start, &law.rest})
-    for (const Statement& statement : *program) each_expression(law, statement, visit);
+    for (const Statement& statement : *program) each_expression(law, statement.value, visit);
 }
 
 }  // namespace
@@ -60,8 +57,6 @@ void each_assigned(const UpdateLaw& law, const Statement& statement, const Visit
   visit_solved(law, statement, [&](const SolvedSlips& solved) {
     each_result(solved, [&](VariableId id, SlipResult, std::size_t) { visit(id); });
   });
-  if (const auto* call = std::get_if<Call>(&statement.step))
-    for (const auto& [result, variable] : call->found) visit(variable);
 }
 
 bool reads(const UpdateLaw& law, const std::vector<Statement>& program, VariableId variable) {

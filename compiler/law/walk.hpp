@@ -15,22 +15,12 @@ inline std::span<const ExpressionId> operands(const Expression& expression) {
   return std::span(expression.operands).first(facts_of(expression.operation).operands);
 }
 
-// Visits an expression and all its operands, each after the one that uses it; nothing for a call, which has no
-// expression.
+// Visits an expression and all its operands, each after the one that uses it.
 template <class Visit>
 void each_expression(const UpdateLaw& law, ExpressionId id, const Visit& visit) {
-  if (id == nothing) return;
   const Expression& expression = law.expressions[id];
   visit(expression);
   for (ExpressionId operand : operands(expression)) each_expression(law, operand, visit);
-}
-
-// The same for a statement: its value, or the arguments of its call.
-template <class Visit>
-void each_expression(const UpdateLaw& law, const Statement& statement, const Visit& visit) {
-  each_expression(law, statement.value, visit);
-  if (const auto* call = std::get_if<Call>(&statement.step))
-    for (const ExpressionId given : call->given) each_expression(law, given, visit);
 }
 
 // The tables of slips that are solved together, trees first.
@@ -40,7 +30,7 @@ void each_solved(Law& law, const Visit& visit) {
   for (auto& network : law.networks) visit(network);
 }
 
-// The table that a statement solves. Out: false, without a visit, where it assigns or calls.
+// The table that a statement solves. Out: false, without a visit, where it assigns.
 template <class Visit>
 bool visit_solved(const UpdateLaw& law, const Statement& statement, const Visit& visit) {
   if (const auto* tree = std::get_if<SolveTree>(&statement.step)) return visit(law.couplings[tree->coupling]), true;

@@ -136,14 +136,10 @@ class Mapping {
                    "ẇ = w′ u̇");
   }
 
-  // Every value of the statements, and what calls are given, becomes what `changed` makes of it.
+  // Every value of the statements becomes what `changed` makes of it.
   template <class Changed>
   static void each_value(std::vector<Statement>& program, const Changed& changed) {
-    for (Statement& statement : program) {
-      if (statement.value != nothing) statement.value = changed(statement.value);
-      if (auto* call = std::get_if<Call>(&statement.step))
-        for (ExpressionId& given : call->given) given = changed(given);
-    }
+    for (Statement& statement : program) statement.value = changed(statement.value);
   }
 
   // What read the inputs reads what they are behind the map.

@@ -5,8 +5,10 @@
 #include <stdexcept>
 
 #include "discretise/law_writer.hpp"
+#include "discretise/tunable_programs.hpp"
 #include "law/check_law.hpp"
 #include "law/walk.hpp"
+#include "lower/drop_unread.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -17,10 +19,11 @@ class Shedding {
       : law_(std::move(law)), writer_(law_, port_motion), reach_(reach) {}
 
   UpdateLaw result() {
-    loosen_static_spring();
+    const bool sheds_by_itself = law_.sheds();
+    if (!sheds_by_itself) loosen_static_spring();
     write_command();
-    keep_spring();
-    shrink_states();
+    if (sheds_by_itself) writer_.assign(law_.keep, law_.share, writer_.read(share_), "");
+    else shed_by_states();
     check_law(law_, "shedding");
     return std::move(law_);
   }
@@ -123,7 +126,6 @@ class Shedding {
     if (reach_.step > 0) kept = writer_.where(writer_.multiply(force, wanted), kept, zero());
     const ExpressionId beyond = writer_.multiply(writer_.subtract(wanted, force), wanted);
     writer_.assign(law_.output, share_, writer_.where(beyond, kept, one()), "s = m/wanted where that is beyond m");
-    law_.share = writer_.kept(share_);
   }
 
   void write_within_limit() {
@@ -147,6 +149,12 @@ class Shedding {
                    "m within the motor's limits");
     writer_.assign(law_.update, last, read(writer_.kept(law_.force)), "m₋ = m");
     unscaled_.insert(last);
+  }
+
+  void shed_by_states() {
+    law_.share = writer_.kept(share_);
+    keep_spring();
+    shrink_states();
   }
 
   // r ← r + (1 − s) (x − r), x the tool or the surface
@@ -209,29 +217,17 @@ class Shedding {
   std::set<VariableId> unscaled_;
 };
 
-// The springs of tunables shed by themselves: what is wanted of the motor goes through their limit.
-UpdateLaw told_of_motor(UpdateLaw law, const MotorReach& reach, motion port_motion) {
-  LawWriter writer(law, port_motion);
-  law.tunable->head.motor_limit = reach.limit;
-  law.tunable->head.motor_step = reach.step;
-  law.wanted = writer.scalar("wanted", writer.force(), "motor's part m, were there no limit", Role::local);
-  const VariableId share = writer.scalar("share", "1", "of all forces, what is kept", Role::local);
-  law.variables[share].rest_value = 1;
-  const auto told =
-      std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == law.force; });
-  told->target = law.wanted;
-  const Call limit = {Callee::limit, {writer.read(law.wanted)}, CallResult::force, {{CallResult::share, share}}};
-  law.output.insert(told + 1, {law.force, nothing, "m within the motor's limits", {}, limit});
-  law.share = writer.kept(share);
-  check_law(law, "shedding");
-  return law;
-}
-
 }  // namespace
 
 UpdateLaw with_shedding(UpdateLaw law, const MotorReach& reach, motion port_motion) {
-  return law.tunable ? told_of_motor(std::move(law), reach, port_motion)
-                     : Shedding(std::move(law), reach, port_motion).result();
+  return Shedding(std::move(law), reach, port_motion).result();
+}
+
+UpdateLaw told_of_motor(UpdateLaw law, const MotorReach& reach) {
+  if (!law.tunable) return law;
+  law.tunable->head.motor_limit = reach.limit;
+  law.tunable->head.motor_step = reach.step;
+  return without_unread_locals(with_programs(std::move(law)));
 }
 
 }  // namespace dashpot::compiler

@@ -21,8 +21,11 @@ struct MotorReach {
   double step = 0;   // of its change from one sample to the next [N]
 };
 
-// The states stay what they were, to the last bit, as long as nothing is shed. A law with tunables does the same in
-// tunable/shedding.hpp, with the offsets of its springs in the place of r.
+// The states stay what they were, to the last bit, as long as nothing is shed. A law that has a share already
+// multiplies its forces by itself: one with tunables, with the offsets of its springs in the place of r.
 UpdateLaw with_shedding(UpdateLaw law, const MotorReach& reach, motion port_motion);
+
+// Before that, and before the law is put behind a map: a law with tunables whose springs can shed; another as it is.
+UpdateLaw told_of_motor(UpdateLaw law, const MotorReach& reach);
 
 }  // namespace dashpot::compiler

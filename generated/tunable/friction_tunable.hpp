@@ -69,12 +69,12 @@ class friction_tunable {
 
   // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
-    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
-    sampled_position_ = 0;
-    sampled_position_change_ = 0;
     spring_2_elongation_ = 0;
     spring_2_held_ = 0;
     tank_ = 0;
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    sampled_position_ = 0;
+    sampled_position_change_ = 0;
     sampled_spring_2_stretched_ = 0;
     // π
     held_force_ = zero;
@@ -250,11 +250,6 @@ class friction_tunable {
   scalar presliding_ = 2000.0;  // parameter [N/m]
   scalar drag_ = 12.0;  // parameter [N s/m]
   scalar step_stiffness_ = 0;  // what springs answer in a sample [N/m]
-  scalar steady_brake_ = 12.0;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = 0;  // b∞ − b [N·s/m]
-  scalar last_brake_ = 12.0;  // b of the sample before [N·s/m]
-  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
-  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar spring_2_elongation_ = 0;  // z [m]
   scalar spring_2_carried_stiffness_ = 2000.0;  // k for which the force is what it is [N/m]
   scalar spring_2_held_ = 0;  // π, what the block holds [N]
@@ -262,6 +257,11 @@ class friction_tunable {
   scalar friction_yield_ = 1.5;  // Y [N]
   scalar spring_2_answer_ = 2000.0;  // g of the block [N/m]
   scalar spring_2_given_way_ = -0.0005;  // δ for each newton that the slip does not hold [m/N]
+  scalar steady_brake_ = 12.0;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = 0;  // b∞ − b [N·s/m]
+  scalar last_brake_ = 12.0;  // b of the sample before [N·s/m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_spring_2_stretched_ = 0;  // at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()

@@ -71,9 +71,6 @@ class layers_tunable {
 
   // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
-    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
-    sampled_position_ = 0;
-    sampled_position_change_ = 0;
     presliding_elongation_ = 0;
     skin_elasticity_elongation_ = 0;
     muscle_rest_elongation_ = 0;
@@ -85,6 +82,9 @@ class layers_tunable {
     sampled_muscle_grip_sign_ = 0;
     sampled_fascia_sign_ = 0;
     tank_ = 0;
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    sampled_position_ = 0;
+    sampled_position_change_ = 0;
     sampled_network_skin_grip_end_1_moved_ = 0;
     sampled_network_skin_grip_end_2_moved_ = 0;
     sampled_network_skin_grip_end_3_moved_ = 0;
@@ -134,12 +134,12 @@ class layers_tunable {
     sampled_ = false;
     if (!dashpot::all_finite(force)) return {last_brake_, 0};
     sampled_ = true;
-    last_brake_ = brake;
-    sampled_position_ = position;
-    sampled_position_change_ = position_change;
     sampled_skin_grip_sign_ = skin_grip_sign;
     sampled_muscle_grip_sign_ = muscle_grip_sign;
     sampled_fascia_sign_ = fascia_sign;
+    last_brake_ = brake;
+    sampled_position_ = position;
+    sampled_position_change_ = position_change;
     sampled_network_skin_grip_end_1_moved_ = network_skin_grip_end_1_moved;
     sampled_network_skin_grip_end_2_moved_ = network_skin_grip_end_2_moved;
     sampled_network_skin_grip_end_3_moved_ = network_skin_grip_end_3_moved;
@@ -327,13 +327,13 @@ class layers_tunable {
   static constexpr scalar muscle_viscosity = 20.0;  // as in the network [N s/m]
   static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // beyond, nothing is left after a sample [1]
   static constexpr scalar period = 0.001;  // T [s]
-  static constexpr scalar max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
   static constexpr scalar zero = 0.0;  // nothing [1]
   static constexpr scalar rate = 1000.0;  // 1/T [Hz]
   static constexpr scalar skin_grip_least_yield = 1.7881393432617188e-07;  // Y, no less whatever the parameters are [N]
   static constexpr scalar muscle_grip_least_yield = 1.7881393432617188e-07;  // Y, no less whatever the parameters are [N]
   static constexpr scalar skin_elasticity_skin_viscosity_least_answer = 0.00020265579223632812;  // g, no less whatever the parameters are [N/m]
   static constexpr scalar muscle_elasticity_to_muscle_rest_least_answer = 0.00022801071038486737;  // g, no less whatever the parameters are [N/m]
+  static constexpr scalar max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
   static constexpr scalar two = 2.0;  // two [1]
   static constexpr scalar minus_one = -1.0;  // minus one [1]
   static constexpr scalar half = 0.5;  // a half [1]
@@ -351,13 +351,6 @@ class layers_tunable {
   scalar muscle_elasticity_muscle_viscosity_kept_ = 0.9778337370422243;  // φ, of a displacement within a sample, what its spring has at the end [1]
   scalar muscle_elasticity_muscle_viscosity_loss_ = 0.044002518166900095;  // α, what is lost in a sample [1]
   scalar step_stiffness_ = 0;  // what springs answer in a sample [N/m]
-  scalar steady_brake_ = 3.0;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = 0;  // b∞ − b [N·s/m]
-  scalar brake_left_ = 1.7976931348623157e+308;  // what the brake has left for slips [N·s/m]
-  scalar last_brake_ = 3.0;  // b of the sample before [N·s/m]
-  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
-  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
-  scalar resting_brake_ = 0;  // b of what is behind slips that hold [N·s/m]
   scalar presliding_elongation_ = 0;  // z [m]
   scalar skin_elasticity_elongation_ = 0;  // z [m]
   scalar muscle_rest_elongation_ = 0;  // z [m]
@@ -375,9 +368,16 @@ class layers_tunable {
   scalar network_skin_grip_1_to_tool_ = 4000.0;  // g between two ends [N/m]
   scalar network_skin_grip_2_to_ground_ = 3400.0;  // g between two ends [N/m]
   scalar network_skin_grip_3_to_ground_ = 1080.0503633380017;  // g between two ends [N/m]
+  scalar steady_brake_ = 3.0;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = 0;  // b∞ − b [N·s/m]
+  scalar brake_left_ = 1.7976931348623157e+308;  // what the brake has left for slips [N·s/m]
+  scalar last_brake_ = 3.0;  // b of the sample before [N·s/m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_network_skin_grip_end_1_moved_ = 0;  // displacement of an inner end, at this sample [m]
   scalar sampled_network_skin_grip_end_2_moved_ = 0;  // displacement of an inner end, at this sample [m]
   scalar sampled_network_skin_grip_end_3_moved_ = 0;  // displacement of an inner end, at this sample [m]
+  scalar resting_brake_ = 0;  // b of what is behind slips that hold [N·s/m]
   scalar last_position_ = 0;  // u of the sample before [m]
   // ends, lowest and highest force of each slip; inner ends come first, then tool and ground
   dashpot::slip_link<scalar> network_skin_grip_links_[3] = {

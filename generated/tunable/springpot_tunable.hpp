@@ -68,9 +68,6 @@ class springpot_tunable {
 
   // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
-    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
-    sampled_position_ = 0;
-    sampled_position_change_ = 0;
     muscle_spring_1_muscle_damper_1_elongation_ = 0;
     muscle_spring_2_muscle_damper_2_elongation_ = 0;
     muscle_spring_3_muscle_damper_3_elongation_ = 0;
@@ -78,6 +75,9 @@ class springpot_tunable {
     muscle_spring_5_muscle_damper_5_elongation_ = 0;
     rest_offset_ = 0;
     tank_ = 0;
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    sampled_position_ = 0;
+    sampled_position_change_ = 0;
     // z = u
     rest_elongation_ = last_position_;
     // π
@@ -712,12 +712,6 @@ class springpot_tunable {
   scalar muscle_spring_5_muscle_damper_5_kept_ = 0.862160720557397;  // φ, of a displacement within a sample, what its spring has at the end [1]
   scalar muscle_spring_5_muscle_damper_5_loss_ = 0.2623897853788436;  // α, what is lost in a sample [1]
   scalar step_stiffness_ = 891.9493558025447;  // what springs answer in a sample [N/m]
-  scalar muscle_damper_1_to_muscle_damper_5_sum_ = 1625.577561857746;  // of these together [N s/m]
-  scalar steady_brake_ = 1625.577561857746;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = -1625.577561857746;  // b∞ − b [N·s/m]
-  scalar last_brake_ = 1625.577561857746;  // b of the sample before [N·s/m]
-  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
-  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar rest_elongation_ = 0;  // z [m]
   scalar muscle_spring_1_muscle_damper_1_elongation_ = 0;  // z [m]
   scalar muscle_spring_1_muscle_damper_1_carried_stiffness_ = 66.35387265580675;  // k for which the force is what it is [N/m]
@@ -731,6 +725,12 @@ class springpot_tunable {
   scalar muscle_spring_5_muscle_damper_5_carried_stiffness_ = 540.1705144288827;  // k for which the force is what it is [N/m]
   scalar rest_offset_ = 0;  // r, how far its rest length is from home [m]
   scalar tank_ = 0;  // T, set free by changes of parameters [J]
+  scalar muscle_damper_1_to_muscle_damper_5_sum_ = 1625.577561857746;  // of these together [N s/m]
+  scalar steady_brake_ = 1625.577561857746;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = -1625.577561857746;  // b∞ − b [N·s/m]
+  scalar last_brake_ = 1625.577561857746;  // b of the sample before [N·s/m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };

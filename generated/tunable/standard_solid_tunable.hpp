@@ -64,11 +64,11 @@ class standard_solid_tunable {
 
   // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
+    spring_1_offset_ = 0;
+    tank_ = 0;
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_position_change_ = 0;
-    spring_1_offset_ = 0;
-    tank_ = 0;
     const scalar loaded_node_1_sum = K1_ + K2;
     const scalar loaded_node_1_quotient = loaded_node_1_sum > 0 ? one / loaded_node_1_sum : zero;
     const scalar loaded_node_1_inverse = one - (loaded_node_1_quotient - loaded_node_1_quotient) > 0 ?
@@ -268,14 +268,6 @@ class standard_solid_tunable {
   scalar held_force_ = 0;  // π, what springs hold [N]
   scalar K1_ = 200.0;  // parameter [N/m]
   scalar springs_stiffness_ = 0;  // what springs answer in a sample [N/m]
-  scalar mesh_stiffness_ = 559.090909090909;  // what meshes answer in a sample [N/m]
-  scalar mesh_feedthrough_ = 0;  // b∞ of the meshes [N·s/m]
-  scalar step_stiffness_ = 559.090909090909;  // what all answer in a sample [N/m]
-  scalar steady_brake_ = 8.0;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = -8.0;  // b∞ − b [N·s/m]
-  scalar last_brake_ = 8.0;  // b of the sample before [N·s/m]
-  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
-  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar spring_1_elongation_ = 0;  // z [m]
   scalar spring_1_carried_stiffness_ = 200.0;  // k for which the force is what it is [N/m]
   scalar K2_elongation_ = 0;  // z [m]
@@ -284,6 +276,14 @@ class standard_solid_tunable {
   scalar tank_ = 0;  // T, set free by changes of parameters [J]
   scalar node_1_inverse_ = 0.00011363636363636364;  // of a mesh's elimination [1]
   scalar node_1_port_share_ = 0.9318181818181818;  // of a mesh's elimination [1]
+  scalar mesh_stiffness_ = 559.090909090909;  // what meshes answer in a sample [N/m]
+  scalar mesh_feedthrough_ = 0;  // b∞ of the meshes [N·s/m]
+  scalar step_stiffness_ = 559.090909090909;  // what all answer in a sample [N/m]
+  scalar steady_brake_ = 8.0;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = -8.0;  // b∞ − b [N·s/m]
+  scalar last_brake_ = 8.0;  // b of the sample before [N·s/m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };

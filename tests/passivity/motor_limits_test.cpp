@@ -11,8 +11,8 @@
 
 #include "certify/motor_limits.hpp"
 #include "law/evaluate.hpp"
+#include "lower/begun_at_rest.hpp"
 #include "lower/shed.hpp"
-#include "lower/spell_out.hpp"
 #include "random_cases.hpp"
 #include "support/random_network.hpp"
 #include "support/repetitions.hpp"
@@ -231,17 +231,17 @@ TEST(MotorLimits, SheddingSlipsNeedTheirDamping) {
 
 // A law with these limits of a motor, where there are any.
 UpdateLaw with_limits(UpdateLaw law, const std::optional<MotorReach>& reach) {
-  if (reach) law = with_shedding(std::move(law), *reach, motion::translation);
-  return spelled_out(std::move(law), motion::translation);
+  if (!reach) return law;
+  return begun_at_rest(with_shedding(told_of_motor(std::move(law), *reach), *reach, motion::translation));
 }
 
-// A network on an ideal device, without an estimate of the velocity; what is tunable is not spelled out yet.
+// A network on an ideal device, without an estimate of the velocity.
 UpdateLaw velocity_free_law(const std::string& structure) {
   const SourceFile source("structure.json", R"({ "dashpot": 1, "name": "structure", )" + structure + " }");
   Diagnostics diagnostics;
   Choices choices;
   choices.decomposition = std::string("velocity-free");
-  return before_spelling_out(compile(source, choices, std::nullopt, diagnostics).value(), choices);
+  return compile(source, choices, std::nullopt, diagnostics).value().law;
 }
 
 // 1 kN/m on a motor of limited slew, by a law that sheds or by one that does not know: pressed fast, held, and slowly
@@ -333,11 +333,10 @@ TEST(MotorLimits, CommandsStayWithinLimitAndSlew) {
                                        : linear_case(seed, "virtual");
     if (!one.compilation || one.compilation->law.sheds()) continue;
     Random random(seed);
-    const UpdateLaw unlimited = before_spelling_out(*one.compilation, one.choices);
+    const UpdateLaw& plain = one.compilation->law;
     const MotorReach reach = {random.log_uniform(1e-3, 1), random.chance(0.5) ? random.log_uniform(1e-4, 1) : 0};
-    const UpdateLaw plain = with_limits(unlimited, std::nullopt);
-    const UpdateLaw wide = with_limits(unlimited, MotorReach{1e300, reach.step > 0 ? 1e300 : 0});
-    const UpdateLaw narrow = with_limits(unlimited, reach);
+    const UpdateLaw wide = with_limits(plain, MotorReach{1e300, reach.step > 0 ? 1e300 : 0});
+    const UpdateLaw narrow = with_limits(plain, reach);
     Evaluation<double> alone(plain), free(wide), held(narrow);
     for (Evaluation<double>* law : {&alone, &free, &held}) law->reset(0);
     double position = 0, last = 0;

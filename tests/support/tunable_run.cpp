@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "discretise/discretise.hpp"
 #include "linear/normal_form.hpp"
 #include "network/law.hpp"
 #include "source/render.hpp"
@@ -58,14 +57,6 @@ TunableLaw::TunableLaw(const std::string& text, const compiler::Choices& choices
   compiler::Diagnostics diagnostics;
   compilation_ = compiler::compile(*source_, choices, std::nullopt, diagnostics);
   if (!compilation_) throw std::runtime_error(compiler::render_text(diagnostics) + text);
-}
-
-compiler::UpdateLaw before_spelling_out(const compiler::Compilation& c, const compiler::Choices& choices) {
-  if (!c.law.tunable) return c.law;
-  compiler::Choices made = choices;
-  made.state_input = compiler::StateInput::position;
-  compiler::Diagnostics diagnostics;
-  return compiler::discretise_tunable(c.network, c.form, c.decomposition, made, c.rate, c.port, diagnostics).value();
 }
 
 std::vector<double> TunableLaw::defaults() const {

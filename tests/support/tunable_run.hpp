@@ -27,10 +27,6 @@ class TunableLaw {
   std::optional<compiler::Compilation> compilation_;
 };
 
-// The law of a network with tunables on an ideal device before its calls are spelled out, for passes that come before
-// that; of another network its law.
-compiler::UpdateLaw before_spelling_out(const compiler::Compilation& compilation, const compiler::Choices& choices);
-
 // Slips in a graph are in no tree, some of them; touched ones are behind a contact at 0.
 enum class Kind {
   parallel_branches,

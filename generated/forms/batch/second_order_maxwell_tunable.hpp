@@ -67,13 +67,13 @@ class second_order_maxwell_tunable {
 
   // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
-    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
-    sampled_position_ = 0;
-    sampled_position_change_ = 0;
     B1_spring_2_elongation_ = 0;
     damper_3_K2_elongation_ = 0;
     K3_offset_ = 0;
     tank_ = 0;
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    sampled_position_ = 0;
+    sampled_position_change_ = 0;
     // z = u
     K3_elongation_ = last_position_;
     // π
@@ -299,18 +299,18 @@ class second_order_maxwell_tunable {
   scalar damper_3_K2_kept_ = 0.9991671294367926;  // φ, of a displacement within a sample, what its spring has at the end [1]
   scalar damper_3_K2_loss_ = 0.0016652785490613212;  // α, what is lost in a sample [1]
   scalar step_stiffness_ = 26.977282807459243;  // what springs answer in a sample [N/m]
-  scalar B1_damper_3_sum_ = 11.0;  // of these together [N s/m]
-  scalar steady_brake_ = 11.0;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = -11.0;  // b∞ − b [N·s/m]
-  scalar last_brake_ = 11.0;  // b of the sample before [N·s/m]
-  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
-  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar K3_elongation_ = 0;  // z [m]
   scalar B1_spring_2_elongation_ = 0;  // z [m]
   scalar B1_spring_2_carried_stiffness_ = 12.0;  // k for which the force is what it is [N/m]
   scalar damper_3_K2_elongation_ = 0;  // z [m]
   scalar K3_offset_ = 0;  // r, how far its rest length is from home [m]
   scalar tank_ = 0;  // T, set free by changes of parameters [J]
+  scalar B1_damper_3_sum_ = 11.0;  // of these together [N s/m]
+  scalar steady_brake_ = 11.0;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = -11.0;  // b∞ − b [N·s/m]
+  scalar last_brake_ = 11.0;  // b of the sample before [N·s/m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };

@@ -77,24 +77,24 @@ class second_order_maxwell_tunable_batch {
     [[maybe_unused]] scalar* const state = state_of(point);
     position = dashpot::all_finite(position, position, position) ? position : scalar(0);
     put(state, 0, 0.0);
-    put(state, 10, position);
-    put(state, 11, 11.0);
+    put(state, 8, 0.0);
+    put(state, 9, 0.0);
+    put(state, 11, 0.0);
     put(state, 12, 0.0);
     put(state, 13, 0.0);
-    put(state, 15, 0.0);
-    put(state, 16, 0.0);
-    put(state, 17, 0.0);
+    put(state, 16, position);
+    put(state, 17, 11.0);
     scalar held_force_ = state[0 * block];
     const scalar K1_ = state[1 * block];
     const scalar B1_spring_2_loss_ = state[4 * block];
     const scalar damper_3_K2_loss_ = state[6 * block];
-    const scalar steady_brake_ = state[8 * block];
-    const scalar last_position_ = state[10 * block];
-    scalar last_brake_ = state[11 * block];
-    scalar K3_elongation_ = state[12 * block];
-    const scalar B1_spring_2_elongation_ = state[13 * block];
-    const scalar damper_3_K2_elongation_ = state[15 * block];
-    const scalar K3_offset_ = state[16 * block];
+    scalar K3_elongation_ = state[8 * block];
+    const scalar B1_spring_2_elongation_ = state[9 * block];
+    const scalar damper_3_K2_elongation_ = state[11 * block];
+    const scalar K3_offset_ = state[12 * block];
+    const scalar steady_brake_ = state[14 * block];
+    const scalar last_position_ = state[16 * block];
+    scalar last_brake_ = state[17 * block];
     // z = u
     K3_elongation_ = last_position_;
     // π
@@ -103,8 +103,8 @@ class second_order_maxwell_tunable_batch {
         (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
     last_brake_ = steady_brake_;
     put(state, 0, held_force_);
-    put(state, 11, last_brake_);
-    put(state, 12, K3_elongation_);
+    put(state, 8, K3_elongation_);
+    put(state, 17, last_brake_);
   }
 
   // Of one point, right after step(), the commands then being those of output() with the same samples: so
@@ -120,14 +120,14 @@ class second_order_maxwell_tunable_batch {
     scalar damper_3_K2_kept_ = state[5 * block];
     scalar damper_3_K2_loss_ = state[6 * block];
     scalar step_stiffness_ = state[7 * block];
-    scalar steady_brake_ = state[8 * block];
-    scalar velocity_gain_ = state[9 * block];
-    const scalar K3_elongation_ = state[12 * block];
-    scalar B1_spring_2_elongation_ = state[13 * block];
-    scalar B1_spring_2_carried_stiffness_ = state[14 * block];
-    const scalar damper_3_K2_elongation_ = state[15 * block];
-    scalar K3_offset_ = state[16 * block];
-    scalar tank_ = state[17 * block];
+    const scalar K3_elongation_ = state[8 * block];
+    scalar B1_spring_2_elongation_ = state[9 * block];
+    scalar B1_spring_2_carried_stiffness_ = state[10 * block];
+    const scalar damper_3_K2_elongation_ = state[11 * block];
+    scalar K3_offset_ = state[12 * block];
+    scalar tank_ = state[13 * block];
+    scalar steady_brake_ = state[14 * block];
+    scalar velocity_gain_ = state[15 * block];
     unsigned clamped = 0;
     clamped |= dashpot::take_value(tunables[0], wanted.K1, K1_) << 0;
     clamped |= dashpot::take_value(tunables[1], wanted.B2, B2_) << 1;
@@ -221,12 +221,12 @@ class second_order_maxwell_tunable_batch {
     put(state, 5, damper_3_K2_kept_);
     put(state, 6, damper_3_K2_loss_);
     put(state, 7, step_stiffness_);
-    put(state, 8, steady_brake_);
-    put(state, 9, velocity_gain_);
-    put(state, 13, B1_spring_2_elongation_);
-    put(state, 14, B1_spring_2_carried_stiffness_);
-    put(state, 16, K3_offset_);
-    put(state, 17, tank_);
+    put(state, 9, B1_spring_2_elongation_);
+    put(state, 10, B1_spring_2_carried_stiffness_);
+    put(state, 12, K3_offset_);
+    put(state, 13, tank_);
+    put(state, 14, steady_brake_);
+    put(state, 15, velocity_gain_);
     return clamped;
   }
 
@@ -251,11 +251,11 @@ class second_order_maxwell_tunable_batch {
     using vector = dashpot::vector<scalar, 1>;
     [[maybe_unused]] const scalar* const state = state_of(point);
     const vector K1_ = vector::at(state, 1 * block);
-    const vector K3_elongation_ = vector::at(state, 12 * block);
-    const vector B1_spring_2_elongation_ = vector::at(state, 13 * block);
-    const vector damper_3_K2_elongation_ = vector::at(state, 15 * block);
-    const vector K3_offset_ = vector::at(state, 16 * block);
-    const vector tank_ = vector::at(state, 17 * block);
+    const vector K3_elongation_ = vector::at(state, 8 * block);
+    const vector B1_spring_2_elongation_ = vector::at(state, 9 * block);
+    const vector damper_3_K2_elongation_ = vector::at(state, 11 * block);
+    const vector K3_offset_ = vector::at(state, 12 * block);
+    const vector tank_ = vector::at(state, 13 * block);
     // V + T: in the springs, and what changes of parameters have set free
     const vector stored = tank_ + K3 * (K3_elongation_ - K3_offset_) * (K3_elongation_ - K3_offset_) * half +
         K1_ * B1_spring_2_elongation_ * B1_spring_2_elongation_ * half +
@@ -293,15 +293,15 @@ class second_order_maxwell_tunable_batch {
     vector damper_3_K2_kept_ = vector::at(state, 5 * block);  // φ, of a displacement within a sample, what its spring has at the end [1]
     vector damper_3_K2_loss_ = vector::at(state, 6 * block);  // α, what is lost in a sample [1]
     vector step_stiffness_ = vector::at(state, 7 * block);  // what springs answer in a sample [N/m]
-    vector steady_brake_ = vector::at(state, 8 * block);  // b of what no slip changes [N·s/m]
-    vector velocity_gain_ = vector::at(state, 9 * block);  // b∞ − b [N·s/m]
-    vector last_position_ = vector::at(state, 10 * block);  // u of the sample before [m]
-    vector last_brake_ = vector::at(state, 11 * block);  // b of the sample before [N·s/m]
-    vector K3_elongation_ = vector::at(state, 12 * block);  // z [m]
-    vector B1_spring_2_elongation_ = vector::at(state, 13 * block);  // z [m]
-    vector damper_3_K2_elongation_ = vector::at(state, 15 * block);  // z [m]
-    vector K3_offset_ = vector::at(state, 16 * block);  // r, how far its rest length is from home [m]
-    vector tank_ = vector::at(state, 17 * block);  // T, set free by changes of parameters [J]
+    vector K3_elongation_ = vector::at(state, 8 * block);  // z [m]
+    vector B1_spring_2_elongation_ = vector::at(state, 9 * block);  // z [m]
+    vector damper_3_K2_elongation_ = vector::at(state, 11 * block);  // z [m]
+    vector K3_offset_ = vector::at(state, 12 * block);  // r, how far its rest length is from home [m]
+    vector tank_ = vector::at(state, 13 * block);  // T, set free by changes of parameters [J]
+    vector steady_brake_ = vector::at(state, 14 * block);  // b of what no slip changes [N·s/m]
+    vector velocity_gain_ = vector::at(state, 15 * block);  // b∞ − b [N·s/m]
+    vector last_position_ = vector::at(state, 16 * block);  // u of the sample before [m]
+    vector last_brake_ = vector::at(state, 17 * block);  // b of the sample before [N·s/m]
     // Δu = u − u₋
     const vector position_change = position - last_position_;
     // m = f − b u̇
@@ -339,13 +339,13 @@ class second_order_maxwell_tunable_batch {
       // u₋ = u
       last_position_ = sampled_position_;
       vector::put(state, 0 * block, vector::where(sampled, held_force_, vector::at(state, 0 * block)));
-      vector::put(state, 10 * block, vector::where(sampled, last_position_, vector::at(state, 10 * block)));
-      vector::put(state, 11 * block, vector::where(sampled, last_brake_, vector::at(state, 11 * block)));
-      vector::put(state, 12 * block, vector::where(sampled, K3_elongation_, vector::at(state, 12 * block)));
-      vector::put(state, 13 * block, vector::where(sampled, B1_spring_2_elongation_, vector::at(state, 13 * block)));
-      vector::put(state, 15 * block, vector::where(sampled, damper_3_K2_elongation_, vector::at(state, 15 * block)));
-      vector::put(state, 16 * block, vector::where(sampled, K3_offset_, vector::at(state, 16 * block)));
-      vector::put(state, 17 * block, vector::where(sampled, tank_, vector::at(state, 17 * block)));
+      vector::put(state, 8 * block, vector::where(sampled, K3_elongation_, vector::at(state, 8 * block)));
+      vector::put(state, 9 * block, vector::where(sampled, B1_spring_2_elongation_, vector::at(state, 9 * block)));
+      vector::put(state, 11 * block, vector::where(sampled, damper_3_K2_elongation_, vector::at(state, 11 * block)));
+      vector::put(state, 12 * block, vector::where(sampled, K3_offset_, vector::at(state, 12 * block)));
+      vector::put(state, 13 * block, vector::where(sampled, tank_, vector::at(state, 13 * block)));
+      vector::put(state, 16 * block, vector::where(sampled, last_position_, vector::at(state, 16 * block)));
+      vector::put(state, 17 * block, vector::where(sampled, last_brake_, vector::at(state, 17 * block)));
     }
   }
 

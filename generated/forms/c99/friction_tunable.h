@@ -156,12 +156,6 @@ typedef struct friction_tunable {
   double presliding;  // parameter [N/m]
   double drag;  // parameter [N s/m]
   double step_stiffness;  // what springs answer in a sample [N/m]
-  double steady_brake;  // b of what no slip changes [N·s/m]
-  double velocity_gain;  // b∞ − b [N·s/m]
-  double last_position;  // u of the sample before [m]
-  double last_brake;  // b of the sample before [N·s/m]
-  double sampled_position;  // port displacement u, at this sample [m]
-  double sampled_position_change;  // Δu since the sample before, at this sample [m]
   double spring_2_elongation;  // z [m]
   double spring_2_carried_stiffness;  // k for which the force is what it is [N/m]
   double spring_2_held;  // π, what the block holds [N]
@@ -169,6 +163,12 @@ typedef struct friction_tunable {
   double friction_yield;  // Y [N]
   double spring_2_answer;  // g of the block [N/m]
   double spring_2_given_way;  // δ for each newton that the slip does not hold [m/N]
+  double steady_brake;  // b of what no slip changes [N·s/m]
+  double velocity_gain;  // b∞ − b [N·s/m]
+  double last_position;  // u of the sample before [m]
+  double last_brake;  // b of the sample before [N·s/m]
+  double sampled_position;  // port displacement u, at this sample [m]
+  double sampled_position_change;  // Δu since the sample before, at this sample [m]
   double sampled_spring_2_stretched;  // at this sample [m]
   int sampled;  // 1 while a finite sample waits for friction_tunable_update()
 } friction_tunable;
@@ -222,13 +222,13 @@ static inline double friction_tunable_parameter_max(int i) {
 static inline void friction_tunable_reset(friction_tunable *self, double position) {
   const double zero = 0.0;  // nothing [1]
   self->held_force = 0.0;
+  self->spring_2_elongation = 0.0;
+  self->spring_2_held = 0.0;
+  self->tank = 0.0;
   self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
   self->last_brake = 12.0;
   self->sampled_position = 0.0;
   self->sampled_position_change = 0.0;
-  self->spring_2_elongation = 0.0;
-  self->spring_2_held = 0.0;
-  self->tank = 0.0;
   self->sampled_spring_2_stretched = 0.0;
   // π
   self->held_force = zero;
@@ -242,12 +242,12 @@ static inline void friction_tunable_init(friction_tunable *self) {
   self->presliding = 2000.0;
   self->drag = 12.0;
   self->step_stiffness = 0.0;
-  self->steady_brake = 12.0;
-  self->velocity_gain = 0.0;
   self->spring_2_carried_stiffness = 2000.0;
   self->friction_yield = 1.5;
   self->spring_2_answer = 2000.0;
   self->spring_2_given_way = -0.0005;
+  self->steady_brake = 12.0;
+  self->velocity_gain = 0.0;
   friction_tunable_reset(self, 0);
   self->sampled = 0;
 }

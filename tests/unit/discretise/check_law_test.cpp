@@ -81,8 +81,8 @@ TEST(CheckLaw, RefusesWhatIsNoLaw) {
             "a pass: an operand of 'add' does not stand before it");
   EXPECT_EQ(complaint_after([](UpdateLaw& law) { law.update.front().step = SolveTree{}; }),
             "a pass: a step solves no coupling");
-  EXPECT_EQ(complaint_after([](UpdateLaw& law) { law.update.front().step = Call{Callee::update}; }),
-            "a pass: a call for tunables without their tables");
+  EXPECT_EQ(complaint_after([](UpdateLaw& law) { law.update.front().value = {}; }),
+            "a pass: a statement without target or value");
   EXPECT_EQ(complaint_after([](UpdateLaw& law) {
               law.tune.push_back({law.rest_position, read(law, law.velocity), "", {}});
             }),

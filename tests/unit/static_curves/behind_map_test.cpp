@@ -4,7 +4,8 @@
 
 #include "law/evaluate.hpp"
 #include "linear/motion_map.hpp"
-#include "lower/spell_out.hpp"
+#include "discretise/tunable_programs.hpp"
+#include "lower/begun_at_rest.hpp"
 #include "static_case.hpp"
 #include "support/repetitions.hpp"
 #include "support/tunable_run.hpp"
@@ -151,9 +152,9 @@ VariableId local_of(const UpdateLaw& law, const char* name) {
 // Fails if with parameters that change a law behind a map is in any bit, or in its energy, another one than the same
 // law of w, as f = w′ F and b = w′² B.
 void expect_same_law_of_w(std::uint64_t seed, const TunableLaw& curved, const TunableLaw& bare) {
-  UpdateLaw told_of_map = before_spelling_out(bare.compilation(), {});
+  UpdateLaw told_of_map = bare.law();
   told_of_map.tunable->head.map = curved.law().tunable->head.map;
-  told_of_map = spelled_out(std::move(told_of_map), motion::translation);
+  told_of_map = begun_at_rest(with_programs(std::move(told_of_map)));
   Evaluation<double> law(curved.law()), of_w(told_of_map);
   const MotionMap& map = *curved.compilation().network.map;
   const VariableId tangent = local_of(curved.law(), "tangent"), start = curved.law().started_at;

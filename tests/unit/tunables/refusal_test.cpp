@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "lower/spell_out.hpp"
+#include "discretise/tunable_programs.hpp"
+#include "lower/begun_at_rest.hpp"
 #include "source/render.hpp"
 #include "support/tunable_run.hpp"
 
@@ -145,9 +146,9 @@ TEST(TunableBrake, GoesNoFasterThanItsCoil) {
     "parameters": { "Y": { "value": 0.4, "tunable": true, "min": 0.1, "max": 5 } },
     "network": { "series": [ { "parallel": [ { "spring": 500 }, { "damper": 5 } ] }, { "slip": "Y" } ] } })";
   const TunableLaw compiled(network);
-  compiler::UpdateLaw law = before_spelling_out(compiled.compilation(), {});
+  compiler::UpdateLaw law = compiled.law();
   law.tunable->head.slip_rule = {true, 1e-4, 0.1};
-  law = compiler::spelled_out(std::move(law), motion::translation);
+  law = compiler::begun_at_rest(compiler::with_programs(std::move(law)));
   compiler::Evaluation<double> run(law);
   double root = std::sqrt(5.0);
   const auto expect = [&](double position, double velocity, double goal) {

@@ -1,11 +1,11 @@
-#include "lower/spelled_slips.hpp"
+#include "discretise/tuned_slips.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "discretise/rounding.hpp"
-#include "lower/spelled_regime.hpp"
+#include "discretise/tuned_regime.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -19,7 +19,7 @@ std::vector<Entry> part_of(const std::vector<Entry>& all, int first, int count) 
 
 }  // namespace
 
-void SpelledSlips::declare() {
+void TunedSlips::declare() {
   elongations_.assign(blocks_.size(), nothing);
   signs_.assign(tables_.yields.size(), nothing);
   slides_.assign(tables_.yields.size(), nothing);
@@ -34,11 +34,11 @@ void SpelledSlips::declare() {
   if (coil_lags()) root_ = numbers_.scalar("slips_brake_root", "1", "√b of what is behind slips", Role::state);
 }
 
-void SpelledSlips::declare(const TunableCoupling& table) {
+void TunedSlips::declare(const TunableCoupling& table) {
   const std::size_t first_block = place(table.first_block), first_slip = place(table.first_slip);
   std::vector<slip_node<double>> nodes = part_of(tables_.nodes, table.first_node, table.node_count);
-  if (const auto path = is_pushed() ? std::nullopt : SpelledLoneSlip::path_of(nodes, first_block)) {
-    lone_.push_back({SpelledLoneSlip(numbers_, blocks_, *path, tables_.slip_names[first_slip]), std::move(nodes),
+  if (const auto path = is_pushed() ? std::nullopt : TunedLoneSlip::path_of(nodes, first_block)) {
+    lone_.push_back({TunedLoneSlip(numbers_, blocks_, *path, tables_.slip_names[first_slip]), std::move(nodes),
                      first_block, first_slip});
     return;
   }
@@ -68,7 +68,7 @@ void SpelledSlips::declare(const TunableCoupling& table) {
   trees_.push_back(std::move(tree));
 }
 
-void SpelledSlips::declare(const TunableGraph& table) {
+void TunedSlips::declare(const TunableGraph& table) {
   Graph graph{{}, &table};
   SlipNetwork& network = graph.network;
   const std::size_t first = place(table.first_slip), ends = place(table.end_count);
@@ -103,22 +103,22 @@ void SpelledSlips::declare(const TunableGraph& table) {
   graphs_.push_back(std::move(graph));
 }
 
-void SpelledSlips::tune(const std::vector<ExpressionId>& numbers) {
+void TunedSlips::tune(const std::vector<ExpressionId>& numbers) {
   for (Lone& lone : lone_) tune(lone, numbers);
   for (Tree& tree : trees_) tune(tree, numbers);
   for (Graph& graph : graphs_) tune(graph, numbers);
 }
 
-void SpelledSlips::tune(Lone& lone, const std::vector<ExpressionId>& numbers) {
+void TunedSlips::tune(Lone& lone, const std::vector<ExpressionId>& numbers) {
   std::vector<ExpressionId> stiffness;
-  for (const SpelledLoneSlip::Level& level : lone.step.path()) stiffness.push_back(bounded_stiffness(level.block));
+  for (const TunedLoneSlip::Level& level : lone.step.path()) stiffness.push_back(bounded_stiffness(level.block));
   const ExpressionId yield = yield_of(lone.slip, numbers);
   lone.step.tune(stiffness,
                  numbers_.tuned(joined(tables_.slip_names[lone.slip], "yield"), writer_.force(), "Y", yield));
 }
 
 // With every slip giving way: of a block g, of a slip 0, in parallel the sum, in series the inverse of Σ 1/g.
-void SpelledSlips::tune(Tree& tree, const std::vector<ExpressionId>& numbers) {
+void TunedSlips::tune(Tree& tree, const std::vector<ExpressionId>& numbers) {
   Coupling& coupling = tree.coupling;
   std::vector<ExpressionId> stiffness(coupling.nodes.size()), compliance(coupling.nodes.size());
   for (std::size_t k = coupling.nodes.size(); k-- > 0;) {
@@ -129,8 +129,8 @@ void SpelledSlips::tune(Tree& tree, const std::vector<ExpressionId>& numbers) {
   }
 }
 
-void SpelledSlips::tune_end(Tree& tree, std::size_t k, std::vector<ExpressionId>& stiffness,
-                            std::vector<ExpressionId>& compliance) {
+void TunedSlips::tune_end(Tree& tree, std::size_t k, std::vector<ExpressionId>& stiffness,
+                          std::vector<ExpressionId>& compliance) {
   const slip_node<double>& node = tree.coupling.nodes[k];
   ExpressionId sum = nothing, inverse = nothing, is_stiff = nothing;
   bool is_flat = false;
@@ -160,7 +160,7 @@ void SpelledSlips::tune_end(Tree& tree, std::size_t k, std::vector<ExpressionId>
 }
 
 // The least of all ways to cut through a slip.
-ExpressionId SpelledSlips::yield_of(std::size_t slip, const std::vector<ExpressionId>& numbers) {
+ExpressionId TunedSlips::yield_of(std::size_t slip, const std::vector<ExpressionId>& numbers) {
   const TunableYield& yield = tables_.yields[slip];
   ExpressionId weakest = nothing;
   for (int i = yield.first_cut; i < yield.first_cut + yield.cut_count; ++i) {
@@ -173,14 +173,14 @@ ExpressionId SpelledSlips::yield_of(std::size_t slip, const std::vector<Expressi
   return largest_of(weakest, least);
 }
 
-void SpelledSlips::tune_yield(std::size_t slip, const std::vector<ExpressionId>& numbers, double& constant,
-                              VariableId& tuned) {
+void TunedSlips::tune_yield(std::size_t slip, const std::vector<ExpressionId>& numbers, double& constant,
+                            VariableId& tuned) {
   const ExpressionId found = yield_of(slip, numbers);
   if (const std::optional<double> fixed = constant_in(found)) constant = *fixed;
   else tuned = numbers_.told(joined(tables_.slip_names[slip], "yield"), writer_.force(), "Y", found);
 }
 
-std::optional<double> SpelledSlips::constant_in(ExpressionId value) const {
+std::optional<double> TunedSlips::constant_in(ExpressionId value) const {
   const Expression& e = writer_.law().expressions[value];
   if (e.operation != Operation::constant) return std::nullopt;
   return writer_.law().coefficients[e.coefficient].values.front();
@@ -188,7 +188,7 @@ std::optional<double> SpelledSlips::constant_in(ExpressionId value) const {
 
 // The curves of slips would lose their digits next to parts without stiffness. A block whose g is raised acts as if it
 // had a little more damping.
-ExpressionId SpelledSlips::bounded_stiffness(std::size_t block) {
+ExpressionId TunedSlips::bounded_stiffness(std::size_t block) {
   const std::string& name = blocks_[block].name;
   const ExpressionId g = blocks_[block].stiffness;
   const ExpressionId least =
@@ -197,7 +197,7 @@ ExpressionId SpelledSlips::bounded_stiffness(std::size_t block) {
   return g == nothing ? least : largest_of(g, least);
 }
 
-void SpelledSlips::tune(Graph& graph, const std::vector<ExpressionId>& numbers) {
+void TunedSlips::tune(Graph& graph, const std::vector<ExpressionId>& numbers) {
   SlipNetwork& network = graph.network;
   const TunableGraph& table = *graph.table;
   for (std::size_t k = 0; k < place(table.link_count); ++k) {
@@ -232,7 +232,7 @@ void SpelledSlips::tune(Graph& graph, const std::vector<ExpressionId>& numbers) 
   network.tuned->through = tell(through, "tool_to_ground");
 }
 
-void SpelledSlips::write_step(VariableId force, ExpressionId change) {
+void TunedSlips::write_step(VariableId force, ExpressionId change) {
   change_ = writer_.reads(change);
   const bool is_alone = lone_.size() + trees_.size() + graphs_.size() == 1;
   ExpressionId sum = nothing;
@@ -249,19 +249,19 @@ void SpelledSlips::write_step(VariableId force, ExpressionId change) {
   if (!is_alone) numbers_.assign(force, sum, "σ of all slips");
 }
 
-void SpelledSlips::write_push(VariableId force, ExpressionId approach, VariableId surface_change) {
+void TunedSlips::write_push(VariableId force, ExpressionId approach, VariableId surface_change) {
   change_ = surface_change;
   if (!graphs_.empty()) write_graph(graphs_.front(), force, approach, surface_change);
   else write_tree(trees_.front(), force, approach, surface_change);
 }
 
-void SpelledSlips::write_tree(Tree& tree, VariableId force, ExpressionId change, VariableId surface_change) {
+void TunedSlips::write_tree(Tree& tree, VariableId force, ExpressionId change, VariableId surface_change) {
   tree.coupling.surface = surface_change;
   numbers_.assign(force, change, "f and every block's δ, by curves, signs and numbers");
   numbers_.last().step = SolveTree{writer_.law().couplings.add(tree.coupling)};
 }
 
-void SpelledSlips::write_graph(Graph& graph, VariableId force, ExpressionId change, VariableId surface_change) {
+void TunedSlips::write_graph(Graph& graph, VariableId force, ExpressionId change, VariableId surface_change) {
   SlipNetwork& network = graph.network;
   network.surface = surface_change;
   if (network.is_pushed()) network.moved.push_back(surface_change);
@@ -288,27 +288,27 @@ void SpelledSlips::write_graph(Graph& graph, VariableId force, ExpressionId chan
   numbers_.last().step = SolveNetwork{writer_.law().networks.add(network)};
 }
 
-ExpressionId SpelledSlips::damping_of(const std::vector<ExpressionId>& slides, const std::string& prefix) {
+ExpressionId TunedSlips::damping_of(const std::vector<ExpressionId>& slides, const std::string& prefix) {
   std::vector<ExpressionId> damping;
   for (std::size_t i = 0; i < blocks_.size(); ++i)  // of block 0 the brake has been told already
     damping.push_back(i == 0 ? ExpressionId(nothing) : blocks_[i].feedthrough);
   ExpressionId sum = nothing;
   for (const Lone& lone : lone_) {
-    SpelledRegime regime(
-        numbers_, part_of(damping, static_cast<int>(lone.first_block), static_cast<int>(lone.step.path().size())),
-        {slides[lone.slip]});
+    TunedRegime regime(numbers_,
+                       part_of(damping, static_cast<int>(lone.first_block), static_cast<int>(lone.step.path().size())),
+                       {slides[lone.slip]});
     sum = writer_.plus(sum, regime.of_tree(lone.nodes, joined(prefix, tables_.slip_names[lone.slip])));
   }
   for (const Tree& tree : trees_) {
     const int blocks = static_cast<int>(tree.coupling.held.size()), slips = tree.coupling.slip_count();
-    SpelledRegime regime(numbers_, part_of(damping, static_cast<int>(tree.first_block), blocks),
-                         part_of(slides, static_cast<int>(tree.first_slip), slips));
+    TunedRegime regime(numbers_, part_of(damping, static_cast<int>(tree.first_block), blocks),
+                       part_of(slides, static_cast<int>(tree.first_slip), slips));
     sum = writer_.plus(sum, regime.of_tree(tree.coupling.nodes, joined(prefix, tree.coupling.name)));
   }
   for (const Graph& graph : graphs_) {
     const TunableGraph& table = *graph.table;
-    SpelledRegime regime(numbers_, part_of(damping, table.first_block, table.tie_count),
-                         part_of(slides, table.first_slip, table.link_count));
+    TunedRegime regime(numbers_, part_of(damping, table.first_block, table.tie_count),
+                       part_of(slides, table.first_slip, table.link_count));
     const int of_tool = is_pushed() ? table.end_count - 1 : table.end_count;
     sum = writer_.plus(
         sum, regime.of_graph(table.end_count, of_tool, part_of(tables_.ties, table.first_tie, table.tie_count),
@@ -318,7 +318,7 @@ ExpressionId SpelledSlips::damping_of(const std::vector<ExpressionId>& slides, c
   return sum;
 }
 
-void SpelledSlips::write_brake(const Brake& found, VariableId position, ExpressionId left) {
+void TunedSlips::write_brake(const Brake& found, VariableId position, ExpressionId left) {
   std::vector<ExpressionId> slides = slides_;
   for (std::size_t k = 0; k < slides.size(); ++k)
     if (slides[k] == nothing) slides[k] = writer_.multiply(writer_.read(signs_[k]), writer_.read(signs_[k]));
@@ -342,18 +342,18 @@ void SpelledSlips::write_brake(const Brake& found, VariableId position, Expressi
   numbers_.assign(found.damping, writer_.multiply(writer_.read(root_now_), writer_.read(root_now_)), "b");
 }
 
-void SpelledSlips::write_resting_brake(VariableId damping, ExpressionId left) {
+void TunedSlips::write_resting_brake(VariableId damping, ExpressionId left) {
   const std::vector<ExpressionId> none(signs_.size(), nothing);
   numbers_.assign(damping, within(left, "regime_damping_at_rest", damping_of(none, "rest")), "b while all slips hold");
   if (root_ != nothing) numbers_.assign(root_, writer_.square_root(writer_.read(damping)), "");
 }
 
-ExpressionId SpelledSlips::moved(const Graph& graph, int end) {
+ExpressionId TunedSlips::moved(const Graph& graph, int end) {
   if (end > graph.network.node_count) return nothing;
   return writer_.read(writer_.kept(end == graph.network.node_count ? change_ : graph.network.moved[place(end)]));
 }
 
-ExpressionId SpelledSlips::elongation(std::size_t block) {
+ExpressionId TunedSlips::elongation(std::size_t block) {
   if (elongations_[block] != nothing) return writer_.read(writer_.kept(elongations_[block]));
   for (Lone& lone : lone_)
     if (const ExpressionId stretched = lone.step.elongation(block); stretched != nothing) return stretched;
@@ -368,24 +368,24 @@ ExpressionId SpelledSlips::elongation(std::size_t block) {
   return nothing;
 }
 
-void SpelledSlips::keep() {
+void TunedSlips::keep() {
   for (SlideMemory& memory : memories_) memory.write_update();
   if (root_ != nothing) numbers_.assign(root_, writer_.read(writer_.kept(root_now_)), "");
 }
 
 // b as far as the brake has it.
-ExpressionId SpelledSlips::within(ExpressionId left, const std::string& name, ExpressionId damping) {
+ExpressionId TunedSlips::within(ExpressionId left, const std::string& name, ExpressionId damping) {
   if (constant_in(damping) == 0.0) return damping;
   return least_of(numbers_.named(name, writer_.damping(), damping), left);
 }
 
-ExpressionId SpelledSlips::least_of(ExpressionId one, ExpressionId other) {
+ExpressionId TunedSlips::least_of(ExpressionId one, ExpressionId other) {
   const auto a = constant_in(one), b = constant_in(other);
   if (a && b) return *a < *b ? one : other;
   return writer_.where(writer_.subtract(other, one), one, other);
 }
 
-ExpressionId SpelledSlips::largest_of(ExpressionId one, ExpressionId other) {
+ExpressionId TunedSlips::largest_of(ExpressionId one, ExpressionId other) {
   const auto a = constant_in(one), b = constant_in(other);
   if (a && b) return *a > *b ? one : other;
   return writer_.where(writer_.subtract(one, other), one, other);

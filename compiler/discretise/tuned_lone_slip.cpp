@@ -1,4 +1,4 @@
-#include "lower/spelled_lone_slip.hpp"
+#include "discretise/tuned_lone_slip.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 
 namespace dashpot::compiler {
 
-std::optional<SpelledLoneSlip::Path> SpelledLoneSlip::path_of(const std::vector<slip_node<double>>& nodes,
-                                                              std::size_t first_block) {
+std::optional<TunedLoneSlip::Path> TunedLoneSlip::path_of(const std::vector<slip_node<double>>& nodes,
+                                                          std::size_t first_block) {
   Path path;
   std::size_t at = 0;
   while (nodes[at].kind != slip_part::slip) {
@@ -23,12 +23,12 @@ std::optional<SpelledLoneSlip::Path> SpelledLoneSlip::path_of(const std::vector<
                                                                                            : std::nullopt;
 }
 
-bool SpelledLoneSlip::is_held_rigid(std::size_t level) const {
+bool TunedLoneSlip::is_held_rigid(std::size_t level) const {
   return std::none_of(path_.begin() + static_cast<std::ptrdiff_t>(level), path_.end(),
                       [](const Level& l) { return l.is_series; });
 }
 
-void SpelledLoneSlip::tune(const std::vector<ExpressionId>& stiffness, ExpressionId yield) {
+void TunedLoneSlip::tune(const std::vector<ExpressionId>& stiffness, ExpressionId yield) {
   yield_ = yield;
   for (std::size_t i = 0; i < path_.size(); ++i)
     levels_[i].stiffness =
@@ -39,7 +39,7 @@ void SpelledLoneSlip::tune(const std::vector<ExpressionId>& stiffness, Expressio
 
 // From the slip to the port: in parallel stiffnesses add up, in series their inverses do. Of what comes before the
 // first in series nothing is asked.
-void SpelledLoneSlip::tune_held() {
+void TunedLoneSlip::tune_held() {
   const auto first = static_cast<std::size_t>(
       std::find_if(path_.begin(), path_.end(), [](const Level& l) { return l.is_series; }) - path_.begin());
   for (std::size_t i = path_.size(); i-- > 0;) {
@@ -65,7 +65,7 @@ void SpelledLoneSlip::tune_held() {
 
 // From the port to the slip: the stiffness that resists the slip's displacement while the port does not move; and back
 // again: how that displacement is shared.
-void SpelledLoneSlip::tune_given() {
+void TunedLoneSlip::tune_given() {
   std::vector<ExpressionId> resisting(path_.size() + 1, nothing);  // nothing where nothing gives way
   for (std::size_t i = 0; i < path_.size(); ++i) {
     const ExpressionId g = levels_[i].stiffness, before = resisting[i];
@@ -96,12 +96,12 @@ void SpelledLoneSlip::tune_given() {
   }
 }
 
-ExpressionId SpelledLoneSlip::pi(std::size_t level) const {
+ExpressionId TunedLoneSlip::pi(std::size_t level) const {
   const VariableId held = blocks_[path_[level].block].held;
   return held == nothing ? ExpressionId(nothing) : writer_.read(held);
 }
 
-ExpressionId SpelledLoneSlip::held_force(std::size_t level) {
+ExpressionId TunedLoneSlip::held_force(std::size_t level) {
   if (level == path_.size()) return nothing;
   const ExpressionId own = pi(level);
   if (is_held_rigid(level + 1)) return path_[level].is_series ? own : ExpressionId(nothing);
@@ -113,12 +113,12 @@ ExpressionId SpelledLoneSlip::held_force(std::size_t level) {
   return found == nothing ? found : local(joined(block_name(level), "held_behind"), writer_.force(), found, "π");
 }
 
-ExpressionId SpelledLoneSlip::block_force(std::size_t level, ExpressionId stretched) {
+ExpressionId TunedLoneSlip::block_force(std::size_t level, ExpressionId stretched) {
   const ExpressionId force = writer_.multiply(levels_[level].stiffness, stretched), own = pi(level);
   return own == nothing ? force : writer_.add(force, own);
 }
 
-ExpressionId SpelledLoneSlip::write_held(ExpressionId change, std::vector<ExpressionId>& stretched) {
+ExpressionId TunedLoneSlip::write_held(ExpressionId change, std::vector<ExpressionId>& stretched) {
   ExpressionId here = change, force = nothing;
   for (std::size_t i = 0; i < path_.size(); ++i) {
     if (!path_[i].is_series) {
@@ -142,7 +142,7 @@ ExpressionId SpelledLoneSlip::write_held(ExpressionId change, std::vector<Expres
   return force;
 }
 
-ExpressionId SpelledLoneSlip::write_step(VariableId target, ExpressionId change) {
+ExpressionId TunedLoneSlip::write_step(VariableId target, ExpressionId change) {
   std::vector<ExpressionId> stretched(path_.size(), nothing);
   const ExpressionId trial =
       local(joined(name_, "trial"), writer_.force(), write_held(change, stretched), "t, the slip's force if it held");
@@ -170,23 +170,23 @@ ExpressionId SpelledLoneSlip::write_step(VariableId target, ExpressionId change)
   return writer_.where(excess, excess, writer_.subtract(numbers_.zero(), excess));
 }
 
-ExpressionId SpelledLoneSlip::elongation(std::size_t block) {
+ExpressionId TunedLoneSlip::elongation(std::size_t block) {
   for (std::size_t i = 0; i < path_.size(); ++i)
     if (path_[i].block == block)
       return levels_[i].stretched == nothing ? ExpressionId(nothing) : writer_.read(writer_.kept(levels_[i].stretched));
   return nothing;
 }
 
-ExpressionId SpelledLoneSlip::local(const std::string& name, const std::string& unit, ExpressionId value,
-                                    const char* purpose) {
+ExpressionId TunedLoneSlip::local(const std::string& name, const std::string& unit, ExpressionId value,
+                                  const char* purpose) {
   return writer_.read(numbers_.local(name, unit, value, purpose));
 }
 
-ExpressionId SpelledLoneSlip::times(ExpressionId a, ExpressionId b) {
+ExpressionId TunedLoneSlip::times(ExpressionId a, ExpressionId b) {
   return a == nothing || b == nothing ? ExpressionId(nothing) : writer_.multiply(a, b);
 }
 
-ExpressionId SpelledLoneSlip::minus(ExpressionId a, ExpressionId b) {
+ExpressionId TunedLoneSlip::minus(ExpressionId a, ExpressionId b) {
   if (b == nothing) return a;
   return writer_.subtract(a == nothing ? numbers_.zero() : a, b);
 }

@@ -7,16 +7,16 @@
 
 #include "discretise/slide_memory.hpp"
 #include "law/tunable_tables.hpp"
-#include "lower/spelled_block.hpp"
-#include "lower/spelled_lone_slip.hpp"
-#include "lower/spelled_numbers.hpp"
+#include "discretise/tuned_block.hpp"
+#include "discretise/tuned_lone_slip.hpp"
+#include "discretise/tuned_numbers.hpp"
 
 namespace dashpot::compiler {
 
-class SpelledSlips {
+class TunedSlips {
  public:
   // All outlive this; what is in the blocks may come later.
-  SpelledSlips(SpelledNumbers& numbers, const TunableTables& tables, const std::vector<SpelledBlock>& blocks)
+  TunedSlips(TunedNumbers& numbers, const TunableTables& tables, const std::vector<TunedBlock>& blocks)
       : numbers_(numbers), writer_(numbers.writer()), tables_(tables), rule_(tables.head.slip_rule), blocks_(blocks) {}
 
   void declare();
@@ -52,7 +52,7 @@ class SpelledSlips {
 
   // A tree of one slip, which needs no solver.
   struct Lone {
-    SpelledLoneSlip step;
+    TunedLoneSlip step;
     std::vector<slip_node<double>> nodes;
     std::size_t first_block, slip;
   };
@@ -80,11 +80,11 @@ class SpelledSlips {
   // The value of a constant, nothing of what is tuned.
   std::optional<double> constant_in(ExpressionId value) const;
 
-  SpelledNumbers& numbers_;
+  TunedNumbers& numbers_;
   LawWriter& writer_;
   const TunableTables& tables_;
   const TunableSlipRule& rule_;
-  const std::vector<SpelledBlock>& blocks_;
+  const std::vector<TunedBlock>& blocks_;
   std::vector<Lone> lone_;
   std::vector<Tree> trees_;
   std::vector<Graph> graphs_;

@@ -1,31 +1,31 @@
-#include "lower/spelled_numbers.hpp"
+#include "discretise/tuned_numbers.hpp"
 
 #include <utility>
 
 namespace dashpot::compiler {
 
-SpelledNumbers::SpelledNumbers(LawWriter& writer) : writer_(writer) {
+TunedNumbers::TunedNumbers(LawWriter& writer) : writer_(writer) {
   for (const Variable& variable : writer.law().variables) writer.unique(variable.name);
   for (const Coefficient& coefficient : writer.law().coefficients) writer.unique(coefficient.name);
 }
 
-void SpelledNumbers::begin(std::vector<Statement>& program) {
+void TunedNumbers::begin(std::vector<Statement>& program) {
   program_ = &program;
   assigned_.clear();
 }
 
-VariableId SpelledNumbers::scalar(const std::string& name, const std::string& unit, const std::string& meaning,
-                                  Role role) {
+VariableId TunedNumbers::scalar(const std::string& name, const std::string& unit, const std::string& meaning,
+                                Role role) {
   return writer_.scalar(writer_.unique(name), unit, meaning, role);
 }
 
-void SpelledNumbers::assign(VariableId target, ExpressionId value, std::string purpose) {
+void TunedNumbers::assign(VariableId target, ExpressionId value, std::string purpose) {
   writer_.assign(*program_, target, value, std::move(purpose));
 }
 
 // A local is of one program, and another program may have one of the same name.
-VariableId SpelledNumbers::local(const std::string& name, const std::string& unit, ExpressionId value,
-                                 std::string purpose) {
+VariableId TunedNumbers::local(const std::string& name, const std::string& unit, ExpressionId value,
+                               std::string purpose) {
   const auto known = locals_.find(name);
   const bool is_free = known != locals_.end() && assigned_.count(known->second) == 0;
   const VariableId variable = is_free ? known->second : scalar(name, unit, "", Role::local);
@@ -35,28 +35,28 @@ VariableId SpelledNumbers::local(const std::string& name, const std::string& uni
   return variable;
 }
 
-ExpressionId SpelledNumbers::named(const std::string& name, const std::string& unit, ExpressionId value) {
+ExpressionId TunedNumbers::named(const std::string& name, const std::string& unit, ExpressionId value) {
   if (facts_of(writer_.law().expressions[value].operation).operands == 0) return value;
   return writer_.read(local(name, unit, value, ""));
 }
 
-VariableId SpelledNumbers::told(const std::string& name, const std::string& unit, const std::string& meaning,
-                                ExpressionId value) {
+VariableId TunedNumbers::told(const std::string& name, const std::string& unit, const std::string& meaning,
+                              ExpressionId value) {
   const VariableId variable = scalar(name, unit, meaning, Role::tuned);
   assign(variable, value, "");
   return variable;
 }
 
-ExpressionId SpelledNumbers::tuned(const std::string& name, const std::string& unit, const std::string& meaning,
-                                   ExpressionId value) {
+ExpressionId TunedNumbers::tuned(const std::string& name, const std::string& unit, const std::string& meaning,
+                                 ExpressionId value) {
   const Expression& e = writer_.law().expressions[value];
   const bool is_there = e.operation == Operation::constant ||
                         (e.operation == Operation::read && writer_.law().variables[e.variable].role == Role::tuned);
   return is_there ? value : writer_.read(told(name, unit, meaning, value));
 }
 
-ExpressionId SpelledNumbers::constant(const std::string& name, const std::string& unit, const std::string& meaning,
-                                      double value, Derivation from) {
+ExpressionId TunedNumbers::constant(const std::string& name, const std::string& unit, const std::string& meaning,
+                                    double value, Derivation from) {
   const auto [known, is_new] = constants_.emplace(name, ExpressionId());
   if (is_new) known->second = writer_.constant(writer_.unique(name), unit, meaning, value, std::move(from));
   return known->second;

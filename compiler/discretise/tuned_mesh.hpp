@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "law/tunable_tables.hpp"
-#include "lower/spelled_numbers.hpp"
+#include "discretise/tuned_numbers.hpp"
 
 namespace dashpot::compiler {
 
-class SpelledMesh {
+class TunedMesh {
  public:
   // The arguments must outlive this object.
-  SpelledMesh(SpelledNumbers& numbers, const BlockPart& part, const std::vector<MeshEdge>& edges);
+  TunedMesh(TunedNumbers& numbers, const BlockPart& part, const std::vector<MeshEdge>& edges);
 
   // In what follows `values` are stiffness or damping of each edge.
 
@@ -67,7 +67,7 @@ class SpelledMesh {
   const MeshEdge& edge(int i) const { return edges_[static_cast<std::size_t>(part_.first_edge + i)]; }
   ExpressionId or_zero(ExpressionId value) { return value == nothing ? numbers_.zero() : value; }
 
-  SpelledNumbers& numbers_;
+  TunedNumbers& numbers_;
   LawWriter& writer_;
   const BlockPart& part_;
   const std::vector<MeshEdge>& edges_;

@@ -1,4 +1,4 @@
-#include "lower/spelled_regime.hpp"
+#include "discretise/tuned_regime.hpp"
 
 #include <utility>
 
@@ -12,13 +12,13 @@ std::string end_name(std::size_t end, std::size_t count) {
 
 }  // namespace
 
-SpelledRegime::Part SpelledRegime::of_slip(std::size_t place) {
+TunedRegime::Part TunedRegime::of_slip(std::size_t place) {
   const ExpressionId slides = slides_[place];
   return {nothing, slides == nothing ? numbers_.one() : writer_.where(slides, numbers_.zero(), numbers_.one())};
 }
 
 // Any rigid part makes all rigid, else dampings add up.
-SpelledRegime::Part SpelledRegime::in_parallel(const std::vector<Part>& children, const std::string& name) {
+TunedRegime::Part TunedRegime::in_parallel(const std::vector<Part>& children, const std::string& name) {
   Part whole;
   for (const Part& child : children) {
     whole.damping = writer_.plus(whole.damping, child.damping);
@@ -33,7 +33,7 @@ SpelledRegime::Part SpelledRegime::in_parallel(const std::vector<Part>& children
 }
 
 // One that slides makes all slide, rigid parts drop out, and the rest is 1/Σ 1/b.
-SpelledRegime::Part SpelledRegime::in_series(const std::vector<Part>& children, const std::string& name) {
+TunedRegime::Part TunedRegime::in_series(const std::vector<Part>& children, const std::string& name) {
   ExpressionId inverse = nothing, joins = nothing, rigid = nothing;
   bool is_rigid = true;
   for (const Part& child : children) {
@@ -55,7 +55,7 @@ SpelledRegime::Part SpelledRegime::in_series(const std::vector<Part>& children, 
   return whole;
 }
 
-ExpressionId SpelledRegime::of_tree(const std::vector<slip_node<double>>& nodes, const std::string& prefix) {
+ExpressionId TunedRegime::of_tree(const std::vector<slip_node<double>>& nodes, const std::string& prefix) {
   std::vector<Part> parts(nodes.size());
   for (std::size_t k = nodes.size(); k-- > 0;) {
     const slip_node<double>& node = nodes[k];
@@ -73,14 +73,14 @@ ExpressionId SpelledRegime::of_tree(const std::vector<slip_node<double>>& nodes,
   return or_zero(parts.front().damping);
 }
 
-void SpelledRegime::join(Matrix& between, std::size_t a, std::size_t b, ExpressionId damping, ExpressionId rigid) {
+void TunedRegime::join(Matrix& between, std::size_t a, std::size_t b, ExpressionId damping, ExpressionId rigid) {
   Part& part = a < b ? between[a][b] : between[b][a];
   if (damping != nothing) part.damping = writer_.plus(part.damping, damping);
   if (rigid != nothing) part.rigid = writer_.plus(part.rigid, rigid);
 }
 
 // What is joined to a node goes over to the first one that it is rigid with, else from star to mesh.
-void SpelledRegime::eliminate(Matrix& between, std::size_t node, const std::string& name) {
+void TunedRegime::eliminate(Matrix& between, std::size_t node, const std::string& name) {
   std::vector<std::pair<std::size_t, Part>> joins;
   ExpressionId is_left = nothing, sum = nothing;  // `nothing` where no join is rigid
   for (std::size_t other = 0; other < between.size(); ++other) {
@@ -116,8 +116,8 @@ void SpelledRegime::eliminate(Matrix& between, std::size_t node, const std::stri
     }
 }
 
-ExpressionId SpelledRegime::of_graph(int end_count, int tool, const std::vector<TunableEnds>& ties,
-                                     const std::vector<TunableEnds>& links, const std::string& prefix) {
+ExpressionId TunedRegime::of_graph(int end_count, int tool, const std::vector<TunableEnds>& ties,
+                                   const std::vector<TunableEnds>& links, const std::string& prefix) {
   const auto size = static_cast<std::size_t>(end_count) + 2;
   Matrix between(size, std::vector<Part>(size));
   const auto place = [](int end) { return static_cast<std::size_t>(end); };

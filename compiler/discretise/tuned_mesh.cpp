@@ -1,10 +1,10 @@
-#include "lower/spelled_mesh.hpp"
+#include "discretise/tuned_mesh.hpp"
 
 #include <algorithm>
 
 namespace dashpot::compiler {
 
-SpelledMesh::SpelledMesh(SpelledNumbers& numbers, const BlockPart& part, const std::vector<MeshEdge>& edges)
+TunedMesh::TunedMesh(TunedNumbers& numbers, const BlockPart& part, const std::vector<MeshEdge>& edges)
     : numbers_(numbers), writer_(numbers.writer()), part_(part), edges_(edges) {
   // A node is pushed by its own springs, and by those of nodes before it that it is joined with.
   const auto count = static_cast<std::size_t>(part.node_count);
@@ -30,7 +30,7 @@ SpelledMesh::SpelledMesh(SpelledNumbers& numbers, const BlockPart& part, const s
                                  : no_variable);
 }
 
-ExpressionId& SpelledMesh::place_of(const MeshEdge& edge, Conductances& all) const {
+ExpressionId& TunedMesh::place_of(const MeshEdge& edge, Conductances& all) const {
   const auto [low, high] = std::minmax(edge.from, edge.to);
   const auto at = static_cast<std::size_t>(high);
   if (low >= 0) return all.weight[static_cast<std::size_t>(low)][at];
@@ -38,7 +38,7 @@ ExpressionId& SpelledMesh::place_of(const MeshEdge& edge, Conductances& all) con
   return low == mesh_port ? all.to_port[at] : all.to_held[at];
 }
 
-SpelledMesh::Conductances SpelledMesh::joined_up(const Row& of_edges) const {
+TunedMesh::Conductances TunedMesh::joined_up(const Row& of_edges) const {
   const auto count = static_cast<std::size_t>(part_.node_count);
   Conductances all{std::vector<Row>(count, Row(count)), Row(count), Row(count)};
   for (int i = 0; i < part_.edge_count; ++i) {
@@ -48,14 +48,14 @@ SpelledMesh::Conductances SpelledMesh::joined_up(const Row& of_edges) const {
   return all;
 }
 
-ExpressionId SpelledMesh::told(const std::string& name, const char* unit, ExpressionId value, bool is_kept) {
+ExpressionId TunedMesh::told(const std::string& name, const char* unit, ExpressionId value, bool is_kept) {
   if (value == nothing) return nothing;
   if (!is_kept) return numbers_.named(name, unit, value);
   return writer_.read(numbers_.told(name, unit, "of a mesh's elimination", value));
 }
 
 // 1/Σ g, and 0 where nothing holds the node.
-ExpressionId SpelledMesh::inverse(ExpressionId pivot, const std::string& name) {
+ExpressionId TunedMesh::inverse(ExpressionId pivot, const std::string& name) {
   if (pivot == nothing) return nothing;
   const ExpressionId sum = numbers_.named(joined(name, "sum"), "1", pivot);
   const ExpressionId quotient = numbers_.named(
@@ -65,7 +65,7 @@ ExpressionId SpelledMesh::inverse(ExpressionId pivot, const std::string& name) {
 }
 
 // From star to mesh, node after node: g_jk += g_ij g_ik / Σ g_i.
-SpelledMesh::Shares SpelledMesh::eliminated(const Row& of_edges, const std::string& prefix, bool is_kept) {
+TunedMesh::Shares TunedMesh::eliminated(const Row& of_edges, const std::string& prefix, bool is_kept) {
   Conductances all = joined_up(of_edges);
   const auto count = static_cast<std::size_t>(part_.node_count);
   Shares shares{all.weight, Row(count), Row(count), nothing};
@@ -100,7 +100,7 @@ SpelledMesh::Shares SpelledMesh::eliminated(const Row& of_edges, const std::stri
   return shares;
 }
 
-void SpelledMesh::tune(const std::vector<ExpressionId>& values, ExpressionId rate) {
+void TunedMesh::tune(const std::vector<ExpressionId>& values, ExpressionId rate) {
   Row dampers, both;
   for (int i = 0; i < part_.edge_count; ++i) {
     const ExpressionId value = values[static_cast<std::size_t>(i)];
@@ -114,7 +114,7 @@ void SpelledMesh::tune(const std::vector<ExpressionId>& values, ExpressionId rat
 }
 
 // The same with conductances g + s n as s goes to 0, to first order.
-ExpressionId SpelledMesh::viscosity(const std::vector<ExpressionId>& values) {
+ExpressionId TunedMesh::viscosity(const std::vector<ExpressionId>& values) {
   Row springs, dampers;
   for (int i = 0; i < part_.edge_count; ++i) {
     const bool is_spring = edge(i).spring != no_index;
@@ -158,7 +158,7 @@ ExpressionId SpelledMesh::viscosity(const std::vector<ExpressionId>& values) {
 }
 
 // a b/p to first order. Where p has no lead neither a nor b has one.
-void SpelledMesh::bridge(FirstOrder a, FirstOrder b, FirstOrder p, FirstOrder& sum) {
+void TunedMesh::bridge(FirstOrder a, FirstOrder b, FirstOrder p, FirstOrder& sum) {
   const auto is_none = [](FirstOrder x) { return x.lead == nothing && x.next == nothing; };
   if (is_none(a) || is_none(b)) return;
   ExpressionId next = numbers_.zero();
@@ -178,22 +178,22 @@ void SpelledMesh::bridge(FirstOrder a, FirstOrder b, FirstOrder p, FirstOrder& s
   sum.next = writer_.plus(sum.next, next);
 }
 
-std::vector<ExpressionId> SpelledMesh::moved(ExpressionId change) {
+std::vector<ExpressionId> TunedMesh::moved(ExpressionId change) {
   Row pushes;
   for (const VariableId push : push_)
     pushes.push_back(push == no_variable ? ExpressionId(nothing) : writer_.read(push));
   return spread(shares_, pushes, change, "");
 }
 
-std::vector<ExpressionId> SpelledMesh::loaded(const std::vector<ExpressionId>& values, ExpressionId position) {
+std::vector<ExpressionId> TunedMesh::loaded(const std::vector<ExpressionId>& values, ExpressionId position) {
   Row springs;
   for (int i = 0; i < part_.edge_count; ++i)
     springs.push_back(edge(i).spring != no_index ? values[static_cast<std::size_t>(i)] : ExpressionId(nothing));
   return spread(eliminated(springs, "loaded", false), Row(push_.size()), position, "loaded");
 }
 
-std::vector<ExpressionId> SpelledMesh::spread(const Shares& shares, const Row& pushes, ExpressionId change,
-                                              const std::string& prefix) {
+std::vector<ExpressionId> TunedMesh::spread(const Shares& shares, const Row& pushes, ExpressionId change,
+                                            const std::string& prefix) {
   const auto count = static_cast<std::size_t>(part_.node_count);
   Row moved(count);
   for (std::size_t i = count; i-- > 0;) {
@@ -218,7 +218,7 @@ std::vector<ExpressionId> SpelledMesh::spread(const Shares& shares, const Row& p
 }
 
 // A spring's force pulls its ends together; what a node is pushed by goes on to those after it.
-ExpressionId SpelledMesh::held(const std::vector<ExpressionId>& forces) {
+ExpressionId TunedMesh::held(const std::vector<ExpressionId>& forces) {
   Row pushes(push_.size());
   ExpressionId force = nothing, rest = nothing;
   for (int i = 0; i < part_.edge_count; ++i) {

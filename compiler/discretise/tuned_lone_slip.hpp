@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "law/tunable_tables.hpp"
-#include "lower/spelled_block.hpp"
-#include "lower/spelled_numbers.hpp"
+#include "discretise/tuned_block.hpp"
+#include "discretise/tuned_numbers.hpp"
 
 namespace dashpot::compiler {
 
-class SpelledLoneSlip {
+class TunedLoneSlip {
  public:
   // From the port to the slip: in series or in parallel with what follows stands a block.
   struct Level {
@@ -24,7 +24,7 @@ class SpelledLoneSlip {
   static std::optional<Path> path_of(const std::vector<slip_node<double>>& nodes, std::size_t first_block);
 
   // All outlive this. `name` is the slip's.
-  SpelledLoneSlip(SpelledNumbers& numbers, const std::vector<SpelledBlock>& blocks, Path path, std::string name)
+  TunedLoneSlip(TunedNumbers& numbers, const std::vector<TunedBlock>& blocks, Path path, std::string name)
       : numbers_(numbers),
         writer_(numbers.writer()),
         blocks_(blocks),
@@ -64,9 +64,9 @@ class SpelledLoneSlip {
   ExpressionId minus(ExpressionId a, ExpressionId b);
   std::string block_name(std::size_t level) const { return blocks_[path_[level].block].name; }
 
-  SpelledNumbers& numbers_;
+  TunedNumbers& numbers_;
   LawWriter& writer_;
-  const std::vector<SpelledBlock>& blocks_;
+  const std::vector<TunedBlock>& blocks_;
   Path path_;
   std::string name_;
   std::vector<Numbers> levels_;

@@ -1,4 +1,4 @@
-// Names, constants and locals of statements that take the place of calls (spell_out.hpp).
+// Names, constants and locals of the programs of a law with tunable parameters.
 #pragma once
 
 #include <map>
@@ -10,10 +10,10 @@
 
 namespace dashpot::compiler {
 
-class SpelledNumbers {
+class TunedNumbers {
  public:
   // The writer outlives this; what is in its law keeps its name.
-  explicit SpelledNumbers(LawWriter& writer);
+  explicit TunedNumbers(LawWriter& writer);
 
   // Statements are added to `program` from here on; it must not move.
   void begin(std::vector<Statement>& program);

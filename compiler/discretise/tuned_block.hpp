@@ -8,7 +8,7 @@
 namespace dashpot::compiler {
 
 // Block 0 joins tool, or surface, and ground.
-struct SpelledBlock {
+struct TunedBlock {
   std::string name;
   ExpressionId stiffness = {};    // g, in set(); none where it has none [N/m]
   ExpressionId feedthrough = {};  // b∞, tuned; none where it has none [N·s/m]

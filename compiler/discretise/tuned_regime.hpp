@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "law/tunable_tables.hpp"
-#include "lower/spelled_numbers.hpp"
+#include "discretise/tuned_numbers.hpp"
 
 namespace dashpot::compiler {
 
-class SpelledRegime {
+class TunedRegime {
  public:
   // `damping`: b∞ of each block, `nothing` for none; `slides`: of each slip a number above zero where it slides, or
   // `nothing` where all hold. Both by the places in the tables.
-  SpelledRegime(SpelledNumbers& numbers, std::vector<ExpressionId> damping, std::vector<ExpressionId> slides)
+  TunedRegime(TunedNumbers& numbers, std::vector<ExpressionId> damping, std::vector<ExpressionId> slides)
       : numbers_(numbers), writer_(numbers.writer()), damping_(std::move(damping)), slides_(std::move(slides)) {}
 
   // At the root of a tree. `prefix` names the locals.
@@ -36,7 +36,7 @@ class SpelledRegime {
   void join(Matrix& between, std::size_t a, std::size_t b, ExpressionId damping, ExpressionId rigid);
   ExpressionId or_zero(ExpressionId value) { return value == nothing ? numbers_.zero() : value; }
 
-  SpelledNumbers& numbers_;
+  TunedNumbers& numbers_;
   LawWriter& writer_;
   std::vector<ExpressionId> damping_, slides_;
 };

@@ -221,13 +221,13 @@ double unpaid_force(const Certificate& certificate) {
 namespace {
 
 // Every operation of a step is off by a unit of its result, which is no larger than the sum of the terms' sizes.
-double rounding_of_step(const UpdateLaw& law) {
-  const double unit = unit_roundoff(law.scalar);
-  const Cost cost = cost_of(law, law.output);
-  // The error bound covers the updates of modes, but not those of springs whose parameters change.
-  const Cost update = law.tunable ? cost_of(law, law.update) : Cost{};
-  return law.relative_error_bound + unit * double(cost.additions + cost.multiplications + cost.coupled +
-                                                  update.additions + update.multiplications);
+double rounding_of_step(const UpdateLaw& law, std::initializer_list<const std::vector<Statement>*> programs) {
+  std::size_t operations = 0;
+  for (const std::vector<Statement>* program : programs) {
+    const Cost cost = cost_of(law, *program);
+    operations += cost.additions + cost.multiplications + cost.coupled;
+  }
+  return law.relative_error_bound + unit_roundoff(law.scalar) * double(operations);
 }
 
 // What is lacking at the worst place of the box, as a need against the least brake.
@@ -299,9 +299,33 @@ double add_missing(UpdateLaw& law, const PassivityBound& bound, const SampledLoo
   return added;
 }
 
-// With tunables. What is added to b leaves b less of the brake's reach, and the motor more: found in a few rounds, or
-// not.
-void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
+// Whether what the brake assures is enough.
+void compare(Certificate& result, const UpdateLaw& law, bool any_regime) {
+  const Rational assured = assured_damping(result.loop, surely_told(law));
+  result.assured = assured.convert_to<double>();
+  result.certified = result.bound.proof != Proof::none && assured >= Rational(result.bound.needed);
+  result.bound.any_regime = any_regime;
+}
+
+// The bound, what is added for it, and whether that is enough. `known`: the bound, where it is.
+Certificate decided(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips,
+                    const std::optional<PassivityBound>& known) {
+  Certificate result;
+  result.loop = loop;
+  result.bound = known ? *known : bound_of(law, loop, slips);
+  if (result.bound.proof != Proof::none) {
+    result.minimum_damping = missing_damping(result.bound, loop, surely_told(law));
+    result.added_damping = add_missing(law, result.bound, loop, slips && slips->behind_contact);
+  }
+  compare(result, law, slips.has_value());
+  return result;
+}
+
+// The same of a law with tunables. What is added to b leaves b less of the brake's reach, and the motor more: found in
+// a few rounds, or not.
+Certificate decided_over_box(UpdateLaw& law, const SampledLoop& loop, bool has_slips) {
+  Certificate result;
+  result.loop = loop;
   TunableBrake& brake = law.tunable->brake;
   const double reach = brake.max_damping;
   BoxMotor box = box_of(law, loop);
@@ -323,50 +347,36 @@ void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
     if (is_beyond) break;
   }
   if (is_proved) result.minimum_damping = missing();
-  result.added_damping = added;
-  brake.added = added;
+  result.added_damping = brake.added = added;
   if (added > 0) law = without_unread_locals(with_programs(std::move(law)));
   result.quantisation_gain = box.quantisation_gain;
   law.damping = box.least_brake + added;
   law.largest_damping = box.largest_brake + added;
-}
-
-// The bound, what is added for it, and whether that is enough. `known`: the bound of a law without tunables, where it
-// is.
-Certificate decided(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips,
-                    const std::optional<PassivityBound>& known) {
-  Certificate result;
-  result.loop = loop;
-  if (law.tunable) settle_box(law, loop, result);
-  else result.bound = known ? *known : bound_of(law, loop, slips);
-  const bool may_add = result.bound.proof != Proof::none && !law.tunable;
-  if (may_add) result.minimum_damping = missing_damping(result.bound, loop, surely_told(law));
-  if (may_add) result.added_damping = add_missing(law, result.bound, loop, slips && slips->behind_contact);
-  const Rational assured = assured_damping(loop, surely_told(law));
-  result.assured = assured.convert_to<double>();
-  result.certified = result.bound.proof != Proof::none && assured >= Rational(result.bound.needed);
-  result.bound.any_regime = slips.has_value();
+  compare(result, law, has_slips);
   return result;
 }
 
 // What is told beside: of energy between samples, the encoder's steps and the motor's limits.
-void look_beyond_bound(Certificate& result, const UpdateLaw& law, const SampledLoop& loop,
-                       const std::optional<SlipMotor>& slips) {
-  const std::optional<MotorConstants> motor = motor_constants(law);
-  if (motor) result.energy = check_energy_lemma(*motor);
-  if (law.tunable) result.energy = check_energy_lemma_over_box(law);
-  if (slips && !law.tunable)
-    result.energy = check_energy_lemma_with_slips(linear_motor_constants(law), parts_behind_slips(law));
-  if (motor) result.quantisation_gain = quantisation_gain(*motor, loop);
-  else if (slips && !law.tunable)
-    result.quantisation_gain = quantisation_gain(linear_motor_constants(law), *slips, loop);
-  if (!motor) result.energy.rounding_share = rounding_of_step(law);
+void look_beyond_bound(Certificate& result, const UpdateLaw& law, const std::optional<SlipMotor>& slips) {
+  const SampledLoop& loop = result.loop;
+  const MotorConstants linear = linear_motor_constants(law);
+  const bool is_one_linear_law = motor_constants(law).has_value();
+  if (slips) result.energy = check_energy_lemma_with_slips(linear, parts_behind_slips(law));
+  else if (is_one_linear_law) result.energy = check_energy_lemma(linear);
+  if (is_one_linear_law) result.quantisation_gain = quantisation_gain(linear, loop);
+  else if (slips) result.quantisation_gain = quantisation_gain(linear, *slips, loop);
+  if (!is_one_linear_law) result.energy.rounding_share = rounding_of_step(law, {&law.output});
+  result.limits = motor_limits(law, slips, loop, result.bound.needed, assured_damping(loop, surely_told(law)));
+}
+
+void look_beyond_box(Certificate& result, const UpdateLaw& law) {
+  const SampledLoop& loop = result.loop;
+  result.energy = check_energy_lemma_over_box(law);
+  // The error bound covers the updates of modes, but not those of springs whose parameters change.
+  result.energy.rounding_share = rounding_of_step(law, {&law.output, &law.update});
   const bool is_proved = result.bound.proof != Proof::none;
-  const Rational assured = assured_damping(loop, surely_told(law));
-  result.limits =
-      law.tunable ? motor_limits_over_box(loop, is_proved ? std::optional(result.bound.needed) : std::nullopt, assured)
-                  : motor_limits(law, slips, loop, result.bound.needed, assured);
-  if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
+  result.limits = motor_limits_over_box(loop, is_proved ? std::optional(result.bound.needed) : std::nullopt,
+                                        assured_damping(loop, surely_told(law)));
 }
 
 }  // namespace
@@ -379,15 +389,16 @@ Certificate beyond_numbers(const SampledLoop& loop) {
 }
 
 Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
-  if (!has_finite_numbers(law)) return beyond_numbers(loop);
-  Certificate result = decided(law, loop, slips, std::nullopt);
-  look_beyond_bound(result, law, loop, slips);
+  Certificate result = certify_in_search(law, loop, slips);
+  if (!has_finite_numbers(law)) return result;
+  law.tunable ? look_beyond_box(result, law) : look_beyond_bound(result, law, slips);
+  if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
   return result;
 }
 
 Certificate certify_in_search(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
   if (!has_finite_numbers(law)) return beyond_numbers(loop);
-  return decided(law, loop, slips, std::nullopt);
+  return law.tunable ? decided_over_box(law, loop, slips.has_value()) : decided(law, loop, slips, std::nullopt);
 }
 
 Certificate weighed_by_gap(UpdateLaw& law, const SampledLoop& loop, const SlipMotor& slips, double gap) {

@@ -286,7 +286,7 @@ void describe_exchange(CLI::App& app, CommandLine& line) {
 void describe_device(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
   CLI::App* device = add_command(
-      app, line, "device", "Write a device as code for its loop, or fill in its brake from the geometry of its blade");
+      app, line, "device", "Print a device, write it as code for its loop, or fill in its brake from the geometry of its blade");
   BladeWords& blade = options.blade;
   device->add_option("DEVICE", options.device, "Device file")->required();
   CLI::Option* target =
@@ -317,10 +317,6 @@ void describe_device(CLI::App& app, CommandLine& line) {
       if (one != other) one->needs(other);
   }
   device->add_option("-o,--output", options.output, "File to write to, default standard output")->option_text("FILE");
-  device->callback([target, needed] {
-    if (target->count() == 0 && needed[0]->count() == 0)
-      throw CLI::RequiredError("--target, or --blade with --pole-length, --pole-width and --field,");
-  });
 }
 
 void describe(CLI::App& app, CommandLine& line) {

@@ -67,7 +67,7 @@ struct Options {
   std::optional<std::uint64_t> seed;              // run: of the simulated device; empty: 0
   std::optional<std::string> motion;              // run: recorded, for the simulated device to be led along
   BladeWords blade;                               // device
-  std::optional<DeviceLanguage> device_language;  // device: to write its description in; empty: fill in its brake
+  std::optional<DeviceLanguage> device_language;  // device: to write its description in; empty: print it
   FitWords fit;                                   // fit
   ExchangeWords exchange;                         // import, export
   std::optional<std::string> as;                  // explain: the form to print as a network file

@@ -141,16 +141,20 @@ ExitStatus write_as_code(const DeviceChoice& device, const Options& options, Dia
 }  // namespace
 
 ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
-  const bool in_cpp = options.device_language == DeviceLanguage::cpp;  // which alone describes two axes
+  const bool is_filled_in = !options.blade.thickness.empty();
+  // In C99 and with a blade there are devices of one axis alone.
+  const bool takes_two_axes = !is_filled_in && options.device_language != DeviceLanguage::c99;
   const DeviceChoice device =
-      in_cpp ? open_any_device(options, files, diagnostics) : open_device(options, files, diagnostics);
+      takes_two_axes ? open_any_device(options, files, diagnostics) : open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   if (options.device_language) return write_as_code(device, options, diagnostics);
+  const SourceFile* file = files.open(*options.device, diagnostics);
+  if (!is_filled_in)
+    return write_output(options, nlohmann::ordered_json::parse(file->text()).dump(2) + "\n", diagnostics);
   Words words(diagnostics);
   const std::optional<FilledBrake> brake = fill_in(*device.device, options.blade, words, diagnostics);
   files.keep(words.take_sources());
   if (!brake) return ExitStatus::input_refused;
-  const SourceFile* file = files.open(*options.device, diagnostics);
   const std::string text = filled_text(*file, *brake, options, device.device->description.motion == motion::rotation);
   // All other commands have to take it.
   if (!read_device(files.keep(*options.device + " with this blade", text), diagnostics))

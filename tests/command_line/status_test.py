@@ -321,14 +321,21 @@ class DeviceAsCode(CommandTest):
             self.assertIn(f'digest = "{digest}"', printed)
 
     def test_what_contradicts(self):
-        """Fails if half of what a blade needs is taken, or a device both written and filled in, or nothing said."""
+        """Fails if half of what a blade needs is taken, or a device both written and filled in."""
         blade = ["--blade", "1 mm", "--pole-length", "20 mm", "--pole-width", "20 mm", "--field", "1 T"]
-        for words, said in [([], "--target, or --blade with --pole-length, --pole-width and --field, is required"),
-                            (blade[:-2], "requires --field"), (["--radius", "1 mm"], "--radius requires --blade"),
+        for words, said in [(blade[:-2], "requires --field"), (["--radius", "1 mm"], "--radius requires --blade"),
                             (["--target", "cpp", *blade], "excludes"), (["--target", "c89"], "c89 not in {cpp,c99}")]:
             done = self.dashpot("device", PANTOGRAPH, *words, "-o", "out.hpp", status=COMMAND_LINE_WRONG)
             self.assertIn(said, done.stderr)
             self.assertFalse((self.folder / "out.hpp").exists())
+
+    def test_as_it_is(self):
+        """Fails if a device is not printed as a file that is the same device, of one axis or two, or a broken one is."""
+        for device in (PANTOGRAPH, SOURCE / "runtime/devices/pantograph_2dof.json"):
+            printed = self.dashpot("device", device).stdout
+            self.assertEqual(json.loads(printed), json.loads(device.read_text()))
+        self.write("broken.json", '{ "dashpot_device": 1, "name": "none" }')
+        self.assertEqual(self.dashpot("device", "broken.json", status=INPUT_REFUSED).stdout, "")
 
     def test_its_own_file_is_spared(self):
         """Fails if a device file can be lost to the code that is written of it, or to a device with another brake, or

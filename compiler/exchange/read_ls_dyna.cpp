@@ -16,10 +16,13 @@ class LsDynaReader {
 
   std::vector<MaterialSeries> read() {
     for (at_ = 0; at_ < lines_.size(); ++at_) {
-      const std::string keyword = keyword_of(lines_[at_]);
+      const std::string words = keyword_of(lines_[at_]);
+      std::string_view keyword = words;
       const bool has_title = keyword.ends_with("_title");
-      if (keyword.starts_with("*mat_general_viscoelastic") || keyword.starts_with("*mat_076")) read_general(has_title);
-      else if (keyword.starts_with("*mat_viscoelastic") || keyword.starts_with("*mat_006")) read_simple(has_title);
+      if (has_title) keyword.remove_suffix(std::string_view("_title").size());
+      // Materials whose names go on, as *MAT_VISCOELASTIC_THERMAL, have other cards.
+      if (keyword == "*mat_general_viscoelastic" || keyword == "*mat_076") read_general(has_title);
+      else if (keyword == "*mat_viscoelastic" || keyword == "*mat_006") read_simple(has_title);
     }
     return std::move(found_);
   }
@@ -78,9 +81,10 @@ class LsDynaReader {
     const auto at_once = number_in(card->fields[3], diagnostics_);
     const auto at_last = number_in(card->fields[4], diagnostics_);
     const auto rate = number_in(card->fields[5], diagnostics_);
-    if (at_once && at_last && rate)
-      found_.push_back(
-          {card->fields[0].text, {PronyOf::absolute, *at_last, {{*at_once - *at_last, 1 / *rate}}}, place});
+    if (!at_once || !at_last || !rate) return;
+    PronySeries series{PronyOf::absolute, *at_once, {}};  // with β = 0 nothing relaxes
+    if (*rate != 0) series = {PronyOf::absolute, *at_last, {{*at_once - *at_last, 1 / *rate}}};
+    found_.push_back({card->fields[0].text, series, place});
   }
 
   std::vector<DeckLine> lines_;

@@ -159,6 +159,10 @@ TEST(PronyFormats, RefuseWhatTheyCannotRead) {
   refuses(PronyFormat::ls_dyna, "*MAT_GENERAL_VISCOELASTIC\n1,2,3\n", "prony-cards-missing");
   refuses(PronyFormat::ls_dyna, "*MAT_VISCOELASTIC\n1,2,3\n", "prony-cards-missing");
   refuses(PronyFormat::ls_dyna, "*MAT_GENERAL_VISCOELASTIC\n1,2,3\n,\n5,-1\n", "not-above-zero");
+  refuses(PronyFormat::ls_dyna, "*MAT_VISCOELASTIC\n7, 1e-6, 2.19, 100., 30., 0.\n", "prony-without-terms");
+  refuses(PronyFormat::ls_dyna, "*MAT_VISCOELASTIC_THERMAL\n7, 1e-6, 2.19, 100., 30., 50.\n", "prony-not-found");
+  refuses(PronyFormat::ls_dyna, "*MAT_GENERAL_VISCOELASTIC_MOISTURE\n7,1e-6,2.19\n,\n1,0.5,0.2\n120,0\n40,1\n",
+          "prony-not-found");
   refuses(PronyFormat::generic, "0.4,0.1\n", "prony-columns-missing");
   refuses(PronyFormat::generic, "weight,time\n0.4\n", "prony-line-too-short");
   EXPECT_NE(Read("weight,time\n1,1\n", {PronyFormat::generic, {}, {}}).said().find("prony-convention-missing"),

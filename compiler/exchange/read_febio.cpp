@@ -4,6 +4,8 @@
 #include <boost/property_tree/xml_parser.hpp>
 #include <fmt/format.h>
 
+#include <charconv>
+#include <set>
 #include <sstream>
 
 #include "exchange/deck.hpp"
@@ -33,7 +35,7 @@ class FebioReader {
     const std::string name = material.get("<xmlattr>.name", material.get("<xmlattr>.id", ""));
     const Span place{&file_, 0, 0};
     PronySeries series{PronyOf::long_term, number(material, "g0").value_or(1), {}};
-    for (int i = 1; material.get_child_optional(fmt::format("g{}", i)); ++i) {
+    for (const int i : indices_of_weights(material)) {
       const auto weight = number(material, fmt::format("g{}", i));
       const auto time = number(material, fmt::format("t{}", i));
       if (weight && !material.get_child_optional(fmt::format("t{}", i)))
@@ -41,6 +43,18 @@ class FebioReader {
       if (weight && time) series.terms.push_back({*weight, *time});
     }
     found.push_back({name, absolute(series), place});
+  }
+
+  // FEBio takes each of <g1>, <g2>, … for 0 that is left out.
+  static std::set<int> indices_of_weights(const XmlTree& material) {
+    std::set<int> indices;
+    for (const auto& [key, child] : material) {
+      int index = 0;
+      const char* const end = key.data() + key.size();
+      if (key.starts_with('g') && std::from_chars(key.data() + 1, end, index).ptr == end && index > 0)
+        indices.insert(index);
+    }
+    return indices;
   }
 
   // Weights count for themselves: g0 scales none of them.

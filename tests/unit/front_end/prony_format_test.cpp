@@ -86,6 +86,11 @@ const Deck decks[] = {
      "0.1,5\n",
      {0.35, 0.4, 0.25},
      {0.1, 3}},
+    {"FEBio, with a term left out",
+     PronyFormat::febio,
+     "<material type=\"viscoelastic\"><g1>0.5</g1><t1>2</t1><g3>1.5</g3><t3>20</t3></material>",
+     {1, 0.5, 1.5},
+     {2, 20}},
     {"FEBio, long-term",
      PronyFormat::febio,
      "<?xml version=\"1.0\"?><febio_spec><Material><material id=\"1\" name=\"fat\" type=\"viscoelastic\"><g1>0.5</g1>"

@@ -2,6 +2,7 @@
 // Command Reference; words count by their first four letters). The weights are shares of the instantaneous moduli.
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "exchange/deck.hpp"
 #include "exchange/read_formats.hpp"
@@ -30,31 +31,79 @@ PronySeries series_of(const std::map<int, DeckField>& constants, const Span& pla
   return series;
 }
 
+// What stands behind an exclamation mark is a remark.
+DeckLine without_remark(DeckLine line) {
+  for (std::size_t i = 0; i < line.fields.size(); ++i) {
+    DeckField& field = line.fields[i];
+    const std::size_t mark = field.text.find('!');
+    if (mark == std::string::npos) continue;
+    field.text.resize(field.text.find_last_not_of(" \t", mark == 0 ? 0 : mark - 1) + 1);
+    field.span.end = field.span.begin + field.text.size();
+    line.fields.resize(i + 1);
+  }
+  return line;
+}
+
+// The constants of a table, of each temperature or other field that it is given for.
+class AnsysTable {
+ public:
+  AnsysTable(std::string material, const Span& place) : material_(std::move(material)), place_(place) {}
+
+  void begin_field(const DeckLine& line) {
+    if (!fields_.back().constants.empty()) fields_.emplace_back();
+    for (const DeckField& field : line.fields)
+      fields_.back().name += (&field == &line.fields[0] ? " " : ",") + field.text;
+  }
+
+  void add(const DeckLine& line, Diagnostics& diagnostics) {
+    std::map<int, DeckField>& constants = fields_.back().constants;
+    const bool is_told = line.fields.size() > 1 && !line.fields[1].text.empty();
+    const auto first = is_told ? number_in(line.fields[1], diagnostics) : std::optional(1.0);
+    if (!first) return;
+    if (*first != std::floor(*first) || std::abs(*first) > 1e6)
+      return diagnostics.report<DiagnosticCode::prony_constant_missing>(line.fields[1].span,
+                                                                        static_cast<int>(constants.size()) + 1);
+    for (std::size_t i = 2; i < line.fields.size(); ++i)
+      if (!line.fields[i].text.empty()) constants[static_cast<int>(*first) + static_cast<int>(i) - 2] = line.fields[i];
+  }
+
+  void finish(std::vector<MaterialSeries>& found, Diagnostics& diagnostics) const {
+    for (const Field& field : fields_)
+      found.push_back({fields_.size() == 1 ? material_ : material_ + field.name,
+                       series_of(field.constants, place_, diagnostics), place_});
+  }
+
+ private:
+  struct Field {
+    std::string name;  // " TBTEMP,20"
+    std::map<int, DeckField> constants;
+  };
+
+  std::string material_;
+  Span place_;
+  std::vector<Field> fields_{1};
+};
+
 }  // namespace
 
 std::vector<MaterialSeries> read_ansys(const SourceFile& file, Diagnostics& diagnostics) {
   std::vector<MaterialSeries> found;
-  std::map<int, DeckField> constants;
-  bool inside = false;
+  std::optional<AnsysTable> table;
   const auto finish = [&] {
-    if (inside) found.back().series = series_of(constants, found.back().span, diagnostics);
-    constants.clear();
-    inside = false;
+    if (table) table->finish(found, diagnostics);
+    table.reset();
   };
-  for (const DeckLine& line : deck_lines(file)) {
+  for (const DeckLine& whole : deck_lines(file)) {
+    const DeckLine line = without_remark(whole);
     if (is_word(line.fields[0], "tb") && line.fields.size() > 1) {
       finish();
       const bool is_shear = line.fields.size() < 6 || line.fields[5].text.empty() || is_word(line.fields[5], "shea");
-      if (!is_word(line.fields[1], "pron") || !is_shear) continue;
-      found.push_back({line.fields.size() > 2 ? line.fields[2].text : "", {}, line.span});
-      inside = true;
-    } else if (inside && is_word(line.fields[0], "tbda")) {
-      const auto first = line.fields.size() > 1 && !line.fields[1].text.empty() ? number_in(line.fields[1], diagnostics)
-                                                                                : std::optional(1.0);
-      if (!first || *first != std::floor(*first) || std::abs(*first) > 1e6) continue;
-      for (std::size_t i = 2; i < line.fields.size(); ++i)
-        if (!line.fields[i].text.empty())
-          constants[static_cast<int>(*first) + static_cast<int>(i) - 2] = line.fields[i];
+      if (is_word(line.fields[1], "pron") && is_shear)
+        table.emplace(line.fields.size() > 2 ? line.fields[2].text : "", line.span);
+    } else if (table && (is_word(line.fields[0], "tbte") || is_word(line.fields[0], "tbfi"))) {
+      table->begin_field(line);
+    } else if (table && is_word(line.fields[0], "tbda")) {
+      table->add(line, diagnostics);
     }
   }
   finish();

@@ -86,6 +86,11 @@ const Deck decks[] = {
      "0.1,5\n",
      {0.35, 0.4, 0.25},
      {0.1, 3}},
+    {"ANSYS, with remarks behind its values",
+     PronyFormat::ansys,
+     "! a remark\nTB,PRONY,2,1,2,SHEAR ! of the liver\nTBDATA,1,0.4,0.1  ! fast, slow\nTBDATA,3,0.25,3! slow\n",
+     {0.35, 0.4, 0.25},
+     {0.1, 3}},
     {"FEBio, with a term left out",
      PronyFormat::febio,
      "<material type=\"viscoelastic\"><g1>0.5</g1><t1>2</t1><g3>1.5</g3><t3>20</t3></material>",
@@ -158,6 +163,7 @@ TEST(PronyFormats, RefuseWhatTheyCannotRead) {
   refuses(PronyFormat::abaqus, "*Viscoelastic, time=PRONY\n1,0,1\n*Viscoelastic, time=PRONY\n1,0,1\n", "prony-several");
   refuses(PronyFormat::ansys, "TB,PRONY,1,1,2\nTBDATA,1,0.4,0.1,0.2\n", "prony-constant-missing");
   refuses(PronyFormat::ansys, "TB,PRONY,1,1,2\nTBDATA,1,0.4,0.1\nTBDATA,5,0.2,3\n", "prony-constant-missing");
+  refuses(PronyFormat::ansys, "TB,PRONY,1,1,2\nTBDATA,1,0.4,0.1\nTBDATA,2.5,0.2,3\n", "prony-constant-missing");
   refuses(PronyFormat::febio, "<a><b></a>", "prony-no-xml");
   refuses(PronyFormat::febio, "<material name=\"x\" type=\"viscoelastic\"><g1>0.5</g1></material>",
           "prony-time-missing");
@@ -176,6 +182,18 @@ TEST(PronyFormats, RefuseWhatTheyCannotRead) {
       "*Material, name=a\n*Viscoelastic, time=PRONY\n1,0,1\n*Material, name=b\n*Viscoelastic, time=PRONY\n1,0,7\n";
   EXPECT_NE(Read(two, {PronyFormat::abaqus, "c", {}}).said().find("prony-material-unknown"), std::string::npos);
   EXPECT_EQ(Read(two, {PronyFormat::abaqus, "b", {}}).series.value().terms[0].time, 7);
+}
+
+// If this fails, a series of several temperatures is taken as the one of the last.
+TEST(PronyFormats, AskForOneOfTheTemperaturesOfAnsys) {
+  const char* two =
+      "TB,PRONY,1,2,1,SHEAR\nTBTEMP,20\nTBDATA,1,0.4,0.1\nTBTEMP,60\nTBDATA,1,0.2,0.5\nTB,PRONY,2,1,1\nTBTEMP,20\n"
+      "TBDATA,1,0.3,7\n";
+  const Read any(two, {PronyFormat::ansys, "1", {}});
+  EXPECT_FALSE(any.series);
+  EXPECT_NE(any.said().find("it has '1 TBTEMP,20', '1 TBTEMP,60', '2'"), std::string::npos) << any.said();
+  EXPECT_EQ(Read(two, {PronyFormat::ansys, "1 TBTEMP,60", {}}).series.value().terms[0].time, 0.5);
+  EXPECT_EQ(Read(two, {PronyFormat::ansys, "2", {}}).series.value().terms[0].time, 7);
 }
 
 // If this fails, a deck of Abaqus is refused or misread for how its author broke lines or wrote capitals.

@@ -7,6 +7,7 @@
 #include "discretise/tunable_network.hpp"
 #include "exchange/network_text.hpp"
 #include "exchange/prony_format.hpp"
+#include "network/law.hpp"
 #include "network/name_rules.hpp"
 #include "network/port_units.hpp"
 #include "network/read_value.hpp"
@@ -15,13 +16,13 @@ namespace dashpot::compiler {
 namespace {
 
 // A word of the command line as a quantity above zero.
-std::optional<double> positive(const std::string& option, const std::string& word, const Dimension& due,
-                               SourceFiles& files, Diagnostics& diagnostics) {
-  const SourceFile& source = files.keep(option, word);
+std::optional<double> positive(const std::string& word, const Expectation& due, SourceFiles& files,
+                               Diagnostics& diagnostics) {
+  const SourceFile& source = files.keep(due.taker, word);
   const ValueDecl decl{ValueDecl::Form::text, word, {&source, 0, word.size()}};
-  const auto value = read_quantity_as(decl, {option, due, motion::translation}, diagnostics);
+  const auto value = read_quantity_as(decl, due, diagnostics);
   if (!value || *value > 0) return value;
-  diagnostics.report<DiagnosticCode::not_above_zero>(decl.span, option, word);
+  diagnostics.report<DiagnosticCode::not_above_zero>(decl.span, due.taker, word);
   return std::nullopt;
 }
 
@@ -47,9 +48,21 @@ PronySeries named_convention(const PronySeries& series) {
   return named;
 }
 
-// What one of the file's units of stiffness is in the network [N/m].
-std::optional<double> scale_of(const ExchangeWords& words, PronyFormat format, bool is_absolute, SourceFiles& files,
-                               Diagnostics& diagnostics) {
+struct Scale {
+  double stiffness;  // [N/m] or [N m/rad]
+  motion port_motion;
+};
+
+// A stiffness for a rotation makes a network that rotates; anything else is to be one for a translation.
+motion motion_of(const std::string& word) {
+  const auto quantity = quantity_in({ValueDecl::Form::text, word, {}});
+  return quantity && quantity->dimension == dimension_of(Spring{}, motion::rotation) ? motion::rotation
+                                                                                     : motion::translation;
+}
+
+// What one of the file's units of stiffness is in the network.
+std::optional<Scale> scale_of(const ExchangeWords& words, PronyFormat format, bool is_absolute, SourceFiles& files,
+                              Diagnostics& diagnostics) {
   const bool is_modulus = is_absolute && format != PronyFormat::febio;
   const std::optional<std::string>& word = is_modulus ? words.modulus : words.stiffness;
   const char* option = is_modulus ? "--modulus" : "--stiffness";
@@ -59,7 +72,9 @@ std::optional<double> scale_of(const ExchangeWords& words, PronyFormat format, b
     else diagnostics.note<DiagnosticCode::prony_stiffness_example>({});
     return std::nullopt;
   }
-  return positive(option, *word, dimensions::stiffness, files, diagnostics);
+  const motion m = motion_of(*word);
+  const auto stiffness = positive(*word, {option, dimension_of(Spring{}, m), m}, files, diagnostics);
+  return stiffness ? std::optional(Scale{*stiffness, m}) : std::nullopt;
 }
 
 PronySeries scaled(PronySeries series, double stiffness, double time) {
@@ -113,14 +128,15 @@ ExitStatus run_import(const Options& options, SourceFiles& files, Diagnostics& d
   auto series = read_prony(*file, {format, words.material, words.of}, diagnostics);
   if (!series) return ExitStatus::input_refused;
   if (format == PronyFormat::febio) series = named_convention(*series);
-  const auto time = positive("--time-unit", "1 " + words.time_unit, dimensions::time, files, diagnostics);
-  const auto stiffness = scale_of(words, format, series->of == PronyOf::absolute, files, diagnostics);
-  if (!time || !stiffness) return ExitStatus::command_line_wrong;
+  const Expectation time_due{"--time-unit", dimensions::time, motion::translation};
+  const auto time = positive("1 " + words.time_unit, time_due, files, diagnostics);
+  const auto scale = scale_of(words, format, series->of == PronyOf::absolute, files, diagnostics);
+  if (!time || !scale) return ExitStatus::command_line_wrong;
   const std::string file_name = std::filesystem::path(options.input).filename().string();
   const std::string source = fmt::format("imported from {} ({}: {}; times in {})", file_name, name_of(format),
                                          convention_in(format, series->of), words.time_unit);
-  const std::string text =
-      prony_network({words.name.value_or(name_from(options.input)), source}, scaled(*series, *stiffness, *time));
+  const std::string text = prony_network({words.name.value_or(name_from(options.input)), source, scale->port_motion},
+                                         scaled(*series, scale->stiffness, *time));
   // A series that creates energy is refused here, with the nearest one that does not.
   if (!check(files.keep("the imported network", text), diagnostics)) return ExitStatus::input_refused;
   return write_output(options, text, diagnostics);

@@ -50,6 +50,19 @@ class Exchange(CommandTest):
         self.write("odd.csv", "# of: instantaneous\n# stiffness: 3 s\nweight,time\n0.4,0.1\n")
         self.refused("import", "odd.csv", "--from", "generic", code="wrong-unit", status=COMMAND_LINE_WRONG)
 
+    def test_a_network_that_rotates_comes_back(self):
+        """Fails if the series of a network that rotates cannot be imported, or comes back as one that translates."""
+        self.write("knob.json", network('{ "prony": 1.2, "of": "instantaneous", "terms": [ '
+                                        '{ "weight": 0.4, "time": "0.1 s" } ] }', "knob", '"motion": "rotation",'))
+        given = form(self, "knob.json")
+        for name in FORMATS:
+            self.dashpot("export", "knob.json", "--to", name, "-o", f"knob.{name}")
+            self.dashpot("import", f"knob.{name}", "--from", name, "-o", f"{name}.json")
+            self.expect_close(form(self, f"{name}.json"), given, 1e-12, name)
+            self.assertEqual(json.loads((self.folder / f"{name}.json").read_text())["motion"], "rotation")
+        self.refused("import", "knob.abaqus", "--from", "abaqus", "--stiffness", "1.2 N m", code="wrong-unit",
+                     status=COMMAND_LINE_WRONG)
+
     def test_units_of_the_file(self):
         """Fails if times in milliseconds are taken for seconds, or a modulus for a stiffness."""
         self.write("deck.k", "*MAT_GENERAL_VISCOELASTIC\n7,1e-6,2.19\n,\n120.,0.\n40.,0.01\n")

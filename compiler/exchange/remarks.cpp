@@ -1,4 +1,5 @@
 // What an export says in the comments of the program that it writes for: a line "KEY: WORDS" each.
+#include <set>
 #include <sstream>
 
 #include "exchange/deck.hpp"
@@ -25,10 +26,16 @@ std::optional<std::string_view> comment(std::string_view line) {
   return std::nullopt;
 }
 
+// Where materials of one file were exported from several networks, no remark is of all of them.
+std::optional<std::string> only_one(const std::set<std::string>& words) {
+  return words.size() == 1 ? std::optional(*words.begin()) : std::nullopt;
+}
+
 }  // namespace
 
 PronyRemarks remarks_of(const SourceFile& file) {
   PronyRemarks remarks;
+  std::set<std::string> stiffnesses, moduli;
   std::istringstream lines{std::string(file.text())};
   for (std::string line; std::getline(lines, line);) {
     const std::optional<std::string_view> text = comment(line);
@@ -37,9 +44,11 @@ PronyRemarks remarks_of(const SourceFile& file) {
     const std::string key = folded(without_blanks(text->substr(0, colon)));
     const std::string words(without_blanks(text->substr(colon + 1)));
     if (key == "of" && !remarks.of) remarks.of = prony_of(folded(words));
-    if (key == "stiffness" && !remarks.stiffness) remarks.stiffness = words;
-    if (key == "modulus" && !remarks.modulus) remarks.modulus = words;
+    if (key == "stiffness") stiffnesses.insert(words);
+    if (key == "modulus") moduli.insert(words);
   }
+  remarks.stiffness = only_one(stiffnesses);
+  remarks.modulus = only_one(moduli);
   return remarks;
 }
 

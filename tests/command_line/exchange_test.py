@@ -63,6 +63,18 @@ class Exchange(CommandTest):
         self.refused("import", "knob.abaqus", "--from", "abaqus", "--stiffness", "1.2 N m", code="wrong-unit",
                      status=COMMAND_LINE_WRONG)
 
+    def test_remarks_that_contradict_each_other_are_none(self):
+        """Fails if a material is given the stiffness of another one that stands before it in the same file."""
+        text = ""
+        for name, stiffness in (("liver", "1200 N/m"), ("fat", "50 N/m")):
+            text += (f"** stiffness: {stiffness}\n*Material, name={name}\n*Viscoelastic, time=PRONY\n0.4, 0., 0.1\n")
+        self.write("both.inp", text)
+        self.refused("import", "both.inp", "--from", "abaqus", "--material", "fat", code="prony-scale-missing",
+                     status=COMMAND_LINE_WRONG)
+        self.write("alike.inp", text.replace("1200 N/m", "50 N/m"))
+        self.dashpot("import", "alike.inp", "--from", "abaqus", "--material", "fat", "-o", "fat.json")
+        self.expect_close(form(self, "fat.json")[0:1], [30], 1e-12, "the same remark of both")
+
     def test_units_of_the_file(self):
         """Fails if times in milliseconds are taken for seconds, or a modulus for a stiffness."""
         self.write("deck.k", "*MAT_GENERAL_VISCOELASTIC\n7,1e-6,2.19\n,\n120.,0.\n40.,0.01\n")

@@ -33,10 +33,12 @@ DeckLine line_of(const SourceFile& file, std::size_t begin, std::size_t end, std
 
 }  // namespace
 
+std::size_t begin_of_text(const SourceFile& file) { return file.text().starts_with("\xEF\xBB\xBF") ? 3 : 0; }
+
 std::vector<DeckLine> deck_lines(const SourceFile& file, std::size_t width) {
   std::vector<DeckLine> lines;
   const std::string& text = file.text();
-  for (std::size_t begin = 0; begin < text.size();) {
+  for (std::size_t begin = begin_of_text(file); begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     lines.push_back(line_of(file, begin, end, width));
     begin = end + 1;

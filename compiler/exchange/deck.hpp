@@ -23,6 +23,9 @@ struct DeckLine {
   bool is_blank() const { return fields.empty() || (fields.size() == 1 && fields[0].text.empty()); }
 };
 
+// The text behind a byte order mark, which spreadsheets put before their tables.
+std::size_t begin_of_text(const SourceFile& file);
+
 // Split at commas; where a line has none and `width` is not 0, into columns of that many characters.
 std::vector<DeckLine> deck_lines(const SourceFile& file, std::size_t width = 0);
 

@@ -36,7 +36,7 @@ std::optional<std::string> only_one(const std::set<std::string>& words) {
 PronyRemarks remarks_of(const SourceFile& file) {
   PronyRemarks remarks;
   std::set<std::string> stiffnesses, moduli;
-  std::istringstream lines{std::string(file.text())};
+  std::istringstream lines(file.text().substr(begin_of_text(file)));
   for (std::string line; std::getline(lines, line);) {
     const std::optional<std::string_view> text = comment(line);
     const std::size_t colon = text ? text->find(':') : std::string_view::npos;

@@ -75,6 +75,16 @@ class Exchange(CommandTest):
         self.dashpot("import", "alike.inp", "--from", "abaqus", "--material", "fat", "-o", "fat.json")
         self.expect_close(form(self, "fat.json")[0:1], [30], 1e-12, "the same remark of both")
 
+    def test_a_table_of_a_spreadsheet(self):
+        """Fails if a byte order mark hides the first column's name, or what the first line says."""
+        self.write("sheet.csv", "\ufeffweight,time\n0.4,0.1\n")
+        self.dashpot("import", "sheet.csv", "--from", "generic", "--stiffness", "10 N/m", "--of", "instantaneous",
+                     "-o", "sheet.json")
+        self.expect_close(form(self, "sheet.json"), [6, 0, 4, 10], 1e-12, "sheet")
+        self.write("deck.inp", "\ufeff** stiffness: 10 N/m\n*Viscoelastic, time=PRONY\n0.4, 0., 0.1\n")
+        self.dashpot("import", "deck.inp", "--from", "abaqus", "-o", "deck.json")
+        self.expect_close(form(self, "deck.json"), [6, 0, 4, 10], 1e-12, "deck")
+
     def test_units_of_the_file(self):
         """Fails if times in milliseconds are taken for seconds, or a modulus for a stiffness."""
         self.write("deck.k", "*MAT_GENERAL_VISCOELASTIC\n7,1e-6,2.19\n,\n120.,0.\n40.,0.01\n")

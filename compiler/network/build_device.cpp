@@ -22,6 +22,7 @@ namespace {
 
 // Far beyond any machine, so that the products in a certificate stay finite.
 constexpr double lowest_speed = 1e-9, highest_speed = 1e9;  // [m/s] or [rad/s]
+constexpr double shortest_arm = 1e-6, longest_arm = 1e6;    // [m]
 constexpr double longest_time = 1e6;                        // of lags and lateness [s]
 constexpr double slowest_mode = 0.1;                        // [Hz]
 constexpr double smallest_part = 100;                       // either side of a mode has at least 1/100 of the inertia
@@ -145,6 +146,9 @@ class DeviceBuilder {
     const auto radius = read_quantity_as(decl, {"'arm_radius'", dimensions::length, motion_}, diagnostics_);
     if (radius && *radius <= 0)
       diagnostics_.report<DiagnosticCode::not_above_zero>(decl.span, "'arm_radius'", fmt::format("{} m", *radius));
+    else if (radius && (*radius < shortest_arm || *radius > longest_arm))
+      diagnostics_.report<DiagnosticCode::device_limit>(decl.span, "arm_radius", excerpt(decl.text),
+                                                        fmt::format("{} to {} m", shortest_arm, longest_arm));
     if (motion_ == motion::translation) diagnostics_.report<DiagnosticCode::arm_without_rotation>(decl.span);
     device_.description.arm_radius = radius.value_or(0);
   }

@@ -187,6 +187,9 @@ class AxesDeviceBuilder {
     JointMechanics& mechanics = device_.mechanics;
     reader.refuse_other_keys({"inertia", "link_masses", "damping", "coulomb_friction"});
     if (const JsonMember* inertia = reader.find("inertia")) read_inertia(inertia->value);
+    const JsonMember* links = reader.find("link_masses");
+    if (links != nullptr && device_.arm.kind == Kinematics::cartesian && !has_errors())
+      diagnostics_.report<DiagnosticCode::links_of_cartesian>(links->key_span, "link_masses");
     mechanics.link_masses = of_joints(reader, "link_masses", dimensions::mass);
     mechanics.damping = of_joints(reader, "damping", rotates() ? dimensions::rotational_damping : dimensions::damping);
     mechanics.coulomb_friction =
@@ -203,7 +206,20 @@ class AxesDeviceBuilder {
                                                                 describe(due) + " for each of 2 x 2");
     const auto first = read_pair("inertia", value.items[0], due, diagnostics_);
     const auto second = read_pair("inertia", value.items[1], due, diagnostics_);
-    if (first && second) device_.mechanics.inertia = {(*first)[0], ((*first)[1] + (*second)[0]) / 2, (*second)[1]};
+    if (!first || !second) return;
+    const auto [xx, xy] = *first;
+    const auto [yx, yy] = *second;
+    device_.mechanics.inertia = {xx, xy, yy};
+    const bool is_positive = xx >= 0 && yy >= 0 && std::abs(xy) <= (1 + 1e-12) * std::sqrt(xx) * std::sqrt(yy);
+    if (xy != yx) refuse_inertia(value, *first, *second, "the same number twice beside the diagonal");
+    else if (!is_positive)
+      refuse_inertia(value, *first, *second, "a matrix that gives no motion a kinetic energy below zero");
+  }
+
+  void refuse_inertia(const JsonValue& value, const Pair<double>& first, const Pair<double>& second,
+                      const char* expected) {
+    const std::string told = fmt::format("[[{}, {}], [{}, {}]]", first[0], first[1], second[0], second[1]);
+    diagnostics_.report<DiagnosticCode::device_limit>(value.span, "mechanics.inertia", told, expected);
   }
 
   void read_assumed() {

@@ -4,6 +4,16 @@
 #include <map>
 
 namespace dashpot::compiler {
+namespace {
+
+// Of a part that several others share, as the loop of two joints, each of them says what is wrong with it.
+bool says_the_same(const Diagnostic& x, const Diagnostic& y) {
+  const auto is_same_note = [](const Note& a, const Note& b) { return a.text == b.text; };
+  return x.code == y.code && x.text == y.text && x.span.file == y.span.file && x.span.begin == y.span.begin &&
+         std::equal(x.notes.begin(), x.notes.end(), y.notes.begin(), y.notes.end(), is_same_note);
+}
+
+}  // namespace
 
 std::string_view name_of(Severity severity) {
   switch (severity) {
@@ -39,6 +49,7 @@ std::vector<Diagnostic> Diagnostics::in_file_order() const {
   std::stable_sort(sorted.begin(), sorted.end(), [&](const Diagnostic& x, const Diagnostic& y) {
     return std::pair(file_order[x.span.file], x.span.begin) < std::pair(file_order[y.span.file], y.span.begin);
   });
+  sorted.erase(std::unique(sorted.begin(), sorted.end(), says_the_same), sorted.end());
   return sorted;
 }
 

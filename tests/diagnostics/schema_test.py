@@ -29,7 +29,7 @@ BEYOND_THE_SCHEMAS = {
     "axes_field_gives_power", "axes_grid_falls", "axes_grid_uneven", "axes_map_radius_of_zero", "axes_port_twice",
     "axes_tunable",
     "devices/axes_arm_out_of_reach", "devices/axes_arm_singular", "devices/axes_brakes_parallel",
-    "devices/axes_inertia_below_zero", "devices/axes_inertia_not_symmetric",
+    "devices/axes_inertia_below_zero", "devices/axes_inertia_not_symmetric", "devices/axes_jitter_of_a_period",
     "devices/axes_link_masses_of_cartesian", "devices/axes_motion_of_serial",
     # several ports: what is true of all of them
     "ports_of_one_name", "ports_with_a_tunable", "ports_with_bad_parameters",

@@ -248,7 +248,7 @@ Json explained(const Compilation& c) {
   for (const Candidate& candidate : c.decomposition.candidates) candidates.push_back(json_of(candidate));
   const Candidate& choice = c.decomposition.choice();
   Json all = {{"name", c.network.name},
-              {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
+              {"motion", name_of(c.network.port_motion)},
               {"units", json_of(port_units(c.network.port_motion))},
               {"static_stiffness", to_double(c.form.linear.static_stiffness)},
               {"feedthrough_damping", to_double(c.form.linear.feedthrough_damping)},

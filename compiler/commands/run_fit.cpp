@@ -17,6 +17,7 @@
 #include "fit/network_text.hpp"
 #include "fit/read_recording.hpp"
 #include "network/name_rules.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -300,17 +301,13 @@ class FitCommand {
     return "";
   }
 
-  static const char* word_of(motion port_motion) {
-    return port_motion == motion::rotation ? "rotation" : "translation";
-  }
-
   bool are_alike() {
     const Recording& first = recordings_.front();
     for (const std::vector<Recording>* list : {&recordings_, &held_out_})
       for (const Recording& recording : *list) {
         const bool is_same_kind = recording.kind == first.kind;
         if (is_same_kind && recording.port_motion == first.port_motion) continue;
-        const auto word = [&](const Recording& r) { return is_same_kind ? word_of(r.port_motion) : word_of(r.kind); };
+        const auto word = [&](const Recording& r) { return is_same_kind ? name_of(r.port_motion) : word_of(r.kind); };
         diagnostics_.report<DiagnosticCode::recordings_differ>({}, first.name, word(first), recording.name,
                                                                word(recording));
         return false;

@@ -10,6 +10,7 @@
 #include "decompose/slip_laws.hpp"
 #include "law/cost.hpp"
 #include "law/walk.hpp"
+#include "network/port_units.hpp"
 #include "source/counted.hpp"
 #include "source/wrapped_text.hpp"
 
@@ -264,7 +265,7 @@ void describe_file(const Compilation& c, Fields& fields) {
   fields["name"] = c.network.name;
   fields["scalar"] = name_of(c.law.scalar);
   fields["sample_period"] = cpp_literal(c.law.sample_period, c.law.scalar);
-  fields["motion"] = c.network.port_motion == motion::rotation ? "rotation" : "translation";
+  fields["motion"] = name_of(c.network.port_motion);
   fields["position_unit"] = length_unit(c.network);
   fields["velocity_unit"] = velocity_unit(c.network);
 }

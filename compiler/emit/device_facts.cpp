@@ -7,11 +7,11 @@
 #include <string_view>
 
 #include "emit/cpp_program.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
-const char* name_of(motion which) { return which == motion::rotation ? "rotation" : "translation"; }
 const char* name_of(quantiser which) { return which == quantiser::round ? "round" : "floor"; }
 const char* name_of(brake_kind which) {
   switch (which) {

@@ -117,7 +117,7 @@ CodeModel cpp_model(const AxesCompilation& c) {
   const CppProgram program = cpp_program(c.law, whole, c.registers);
   CodeModel model;
   describe(c, model.fields);
-  model.fields["motion"] = c.device.joint_motion() == motion::rotation ? "rotation" : "translation";
+  model.fields["motion"] = name_of(c.device.joint_motion());
   model.fields["any_device"] = c.has_device ? "false" : "true";
   model.fields["is_certified"] = c.certificate.certified ? "true" : "false";
   add_program(program, model);

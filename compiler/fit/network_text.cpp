@@ -138,8 +138,8 @@ std::string error_text(double rms, const Fit& fit, const Problem& problem, int d
 
 std::string bare_network_text(const Fit& fit) {
   return fmt::format("{{\n  \"dashpot\": 1,\n  \"name\": \"{}\",\n  \"motion\": \"{}\",\n{}  \"network\": {}\n}}\n",
-                     fit.network_name, fit.choices.port_motion == motion::rotation ? "rotation" : "translation",
-                     static_line(fit), tree_text(fit.elements, fit.choices.form));
+                     fit.network_name, name_of(fit.choices.port_motion), static_line(fit),
+                     tree_text(fit.elements, fit.choices.form));
 }
 
 std::string network_text(const Fit& fit, const Problem& problem) {
@@ -149,8 +149,7 @@ std::string network_text(const Fit& fit, const Problem& problem) {
       fmt::format("  \"title\": {},\n",
                   quoted(fit.choices.title.empty() ? "Fitted to " + counted(count, "recording") : fit.choices.title));
   text += fmt::format("  \"source\": {},\n", quoted(fit.choices.source));
-  text +=
-      fmt::format("  \"motion\": \"{}\",\n", fit.choices.port_motion == motion::rotation ? "rotation" : "translation");
+  text += fmt::format("  \"motion\": \"{}\",\n", name_of(fit.choices.port_motion));
   text += static_line(fit);
   text += fmt::format("  \"network\": {},\n", tree_text(fit.elements, fit.choices.form));
   if (fit.choices.contact)

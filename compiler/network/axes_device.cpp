@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "network/port_units.hpp"
 #include "network/read_pair.hpp"
 #include "source/counted.hpp"
 #include "source/excerpt.hpp"
@@ -42,9 +43,7 @@ class AxesDeviceBuilder {
   }
 
  private:
-  const char* motion_name() const {
-    return motion_of(device_.arm.kind) == motion::rotation ? "rotation" : "translation";
-  }
+  const char* motion_name() const { return name_of(motion_of(device_.arm.kind)); }
   bool rotates() const { return motion_of(device_.arm.kind) == motion::rotation; }
 
   void read_kinematics(const JsonValue& object) {

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "network/law.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -19,8 +20,7 @@ std::string value_text(const Network& network, const Element& element) {
 }
 
 void append_header(std::string& out, const Network& network) {
-  const bool rotates = network.port_motion == motion::rotation;
-  fmt::format_to(std::back_inserter(out), "network {}: {}\n", network.name, rotates ? "rotation" : "translation");
+  fmt::format_to(std::back_inserter(out), "network {}: {}\n", network.name, name_of(network.port_motion));
   if (!network.title.empty()) out += "  title: " + network.title + "\n";
   if (!network.source.empty()) out += "  source: " + network.source + "\n";
 }

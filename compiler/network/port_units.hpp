@@ -1,7 +1,7 @@
 // Units at a port, as the compiler's text spells them.
 #pragma once
 
-#include <dashpot/command.hpp>
+#include <dashpot/servo/unit_names.hpp>
 
 #include <string>
 

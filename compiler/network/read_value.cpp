@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "network/name_rules.hpp"
+#include "network/port_units.hpp"
 #include "network/quantity.hpp"
 #include "source/excerpt.hpp"
 
@@ -48,13 +49,12 @@ void report_wrong_unit(const ValueDecl& decl, const Dimension& found, const Expe
   diagnostics.report<DiagnosticCode::wrong_unit>(
       decl.span, excerpt(decl.text), describe(found), expected.taker,
       describe(expected.dimension) + (is_time_by_share ? " such as '50 us'" : ""));
-  const bool rotates = expected.port_motion == motion::rotation;
   if (found == dimensions::number && (is_quantity(decl) || is_expression(decl, scope)) && !is_share)
     diagnostics.note<DiagnosticCode::write_instead>({}, with_unit(decl, unit_of(expected.dimension), scope));
   else if (expected.dimension.radian < 0 && product(found, power(dimensions::angle, -1)) == expected.dimension)
     diagnostics.note<DiagnosticCode::write_instead>({}, per_radian(decl, scope));
   else if (is_of_other_motion(found, expected.dimension))
-    diagnostics.note<DiagnosticCode::units_of_motion>({}, rotates ? "rotation" : "translation");
+    diagnostics.note<DiagnosticCode::units_of_motion>({}, name_of(expected.port_motion));
 }
 
 }  // namespace

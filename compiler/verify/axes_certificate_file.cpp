@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "network/port_units.hpp"
 #include "syntax/parse_axes.hpp"
 #include "verify/header_constants.hpp"
 #include "verify/network_json.hpp"
@@ -75,7 +76,7 @@ std::string axes_certificate_text(const AxesCompilation& c, const std::string& n
                     {"axes", most_axes},
                     {"version", DASHPOT_VERSION},
                     {"name", c.network.name},
-                    {"motion", c.device.joint_motion() == motion::rotation ? "rotation" : "translation"},
+                    {"motion", name_of(c.device.joint_motion())},
                     {"law",
                      {{"rate", c.rate},
                       {"scheme", name_of(c.law.scheme)},

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "certify/storage_function.hpp"
+#include "network/port_units.hpp"
 #include "verify/header_constants.hpp"
 #include "verify/network_json.hpp"
 
@@ -134,7 +135,7 @@ std::string certificate_text(const Compilation& c, const Choices& choices, const
       {"dashpot_certificate", 1},
       {"version", DASHPOT_VERSION},
       {"name", c.network.name},
-      {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
+      {"motion", name_of(c.network.port_motion)},
       {"law", json_of_choices(c, choices)},
       {"elements", json_of_elements(c.network)},
       {"canonical_form", json_of_form(nodal ? c.decomposition.realisation : c.form.linear)},

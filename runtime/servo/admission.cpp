@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstring>
 
+#include <dashpot/servo/unit_names.hpp>
 #include <dashpot/transmission.hpp>
 
 namespace dashpot {
@@ -27,8 +28,6 @@ std::string number(double value) {
 }
 
 std::string quoted(const char* text) { return "'" + std::string(text) + "'"; }
-
-const char* word_of(motion which) { return which == motion::rotation ? "rotation" : "translation"; }
 
 std::string made_for(const model_facts& model) {
   return (model.is_certified ? "model is certified for device " : "model is made for device ") + quoted(model.device);
@@ -67,8 +66,8 @@ std::string to_text(admission verdict, const model_facts& model, const loop_fact
       return "model is made for a period of " + number(model.sample_period) + " s, device " +
              quoted(loop.identity.name) + " runs at " + number(timing.sample_period) + " s";
     case admission::other_motion:
-      return std::string("model is made for ") + word_of(model.port_motion) + ", device " + quoted(loop.identity.name) +
-             " moves in " + word_of(loop.device.motion) + " and states no arm radius that would convert it";
+      return std::string("model is made for ") + name_of(model.port_motion) + ", device " + quoted(loop.identity.name) +
+             " moves in " + name_of(loop.device.motion) + " and states no arm radius that would convert it";
     case admission::not_certified:
       return uncertified(model) + "; this loop requires one certified for device " + quoted(loop.identity.name);
     case admission::other_device: return made_for(model) + ", this is device " + quoted(loop.identity.name);

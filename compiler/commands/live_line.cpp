@@ -10,8 +10,11 @@
 
 namespace dashpot::compiler {
 
-LiveLine::LiveLine(bool rotary)
-    : rotary_(rotary), terminal_(::isatty(STDOUT_FILENO) == 1), interval_(terminal_ ? 0.1 : 1.0), next_(interval_) {}
+LiveLine::LiveLine(motion port_motion)
+    : units_(port_units(port_motion)),
+      terminal_(::isatty(STDOUT_FILENO) == 1),
+      interval_(terminal_ ? 0.1 : 1.0),
+      next_(interval_) {}
 
 void LiveLine::show(const telemetry_record& record) {
   ++records_;
@@ -28,13 +31,11 @@ void LiveLine::print() {
   const double elapsed = time_ - last_time_;
   const double periods = shown_ ? double(records_) : double(records_) - 1;  // the first record begins one
   const double rate = elapsed > 0 ? periods / elapsed : 0;
-  const char* force = rotary_ ? "N m" : "N";
-  const char* damping = rotary_ ? "N m s/rad" : "N s/m";
   const std::string line = fmt::format(
       "{}{:7.1f} s  {:7.0f} Hz  late {:6.0f} us  motor up to {:9.4f} {}  brake up to {:8.4f} {}  energy {:9.5f} J  "
       "faults {}{}",
-      terminal_ ? "\r" : "", time_, rate, double(latest_) * 1e-3, motor_, force, brake_, damping, energy_, faults_,
-      terminal_ ? "" : "\n");
+      terminal_ ? "\r" : "", time_, rate, double(latest_) * 1e-3, motor_, units_.force, brake_, units_.damping, energy_,
+      faults_, terminal_ ? "" : "\n");
   std::fputs(line.c_str(), stdout);  // nobody has to read along
   std::fflush(stdout);
   shown_ = true;

@@ -6,11 +6,13 @@
 
 #include <cstdint>
 
+#include "network/port_units.hpp"
+
 namespace dashpot::compiler {
 
 class LiveLine {
  public:
-  explicit LiveLine(bool rotary);
+  explicit LiveLine(motion port_motion);
 
   void show(const telemetry_record& record);  // from the writer's thread
   void finish();                              // tells of what came after the last line, and leaves that standing
@@ -18,7 +20,7 @@ class LiveLine {
  private:
   void print();
 
-  bool rotary_;
+  PortUnits units_;
   bool terminal_;
   double interval_;       // between lines [s]
   double next_ = 0;       // [s]

@@ -12,6 +12,7 @@
 #include "fit/column_choice.hpp"
 #include "fit/table_shape.hpp"
 #include "network/name_rules.hpp"
+#include "network/port_units.hpp"
 #include "network/rate_limits.hpp"
 #include "source/counted.hpp"
 #include "source/excerpt.hpp"
@@ -229,7 +230,7 @@ class CsvTable {
       const auto kind = unit->dimension.radian != 0 ? dashpot::motion::rotation : dashpot::motion::translation;
       if (motion.clock.kind && *motion.clock.kind != kind)
         fail<DiagnosticCode::recording_wrong_unit>(header[index].span, found->title, *found->unit, name_of(role),
-                                                   motion.clock.kind == dashpot::motion::rotation ? "rad" : "m");
+                                                   port_units(*motion.clock.kind).position);
       motion.clock.kind = kind;
       motion.clock.kind_span = header[index].span;
     }
@@ -443,9 +444,9 @@ bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagn
 }
 
 void warn_outside_valid(const Motion& motion, const Network& network, Diagnostics& diagnostics) {
-  const bool turns = network.port_motion == dashpot::motion::rotation;
+  const PortUnits units = port_units(network.port_motion);
   const auto warns = [&](const std::optional<Range>& range, double value, double time, const char* what,
-                         const char* unit) {
+                         const std::string& unit) {
     if (!range || range->contains(value)) return false;
     diagnostics.report<DiagnosticCode::outside_valid_range>(network.valid.span, what, value, unit, time, range->low,
                                                             range->high);
@@ -455,12 +456,12 @@ void warn_outside_valid(const Motion& motion, const Network& network, Diagnostic
   for (std::size_t i = 0; i < motion.time.size(); ++i) {
     const double time = motion.time[i], position = motion.position[i];
     has_displacement =
-        has_displacement || warns(network.valid.displacement, position, time, "displacement", turns ? "rad" : "m");
+        has_displacement || warns(network.valid.displacement, position, time, "displacement", units.position);
     const double slope = i == 0 ? 0 : (position - motion.position[i - 1]) / *motion.period;
     const double velocity = motion.velocity.empty() ? slope : motion.velocity[i];
     // Rest is in every recording, and says nothing of how fast the tissue may be pressed.
     if (velocity == 0) continue;
-    has_rate = has_rate || warns(network.valid.rate, std::abs(velocity), time, "rate", turns ? "rad/s" : "m/s");
+    has_rate = has_rate || warns(network.valid.rate, std::abs(velocity), time, "rate", units.velocity);
   }
 }
 

@@ -132,7 +132,7 @@ ExitStatus run_axes(const Options& options, const simulated::hand& user, const S
   std::optional<LoadedArmModel> model = load_arm_model(*compilation, options.emission, diagnostics);
   if (!model) return ExitStatus::input_refused;
   if (!options.json_diagnostics) tell(options, diagnostics);
-  LiveLine live(arm.motion() == motion::rotation);
+  LiveLine live(arm.motion());
   arm_servo_options loop;
   loop.identity = {compilation->device.name.c_str(), compilation->device.digest.c_str()};
   loop.duration = options.duration.value_or(0);

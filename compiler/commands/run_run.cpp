@@ -153,7 +153,7 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
   if (!model) return ExitStatus::input_refused;
   if (!options.json_diagnostics)
     tell(options, diagnostics);  // before anything moves; a program reads one array, at the end
-  LiveLine live(compilation->network.port_motion == motion::rotation);
+  LiveLine live(compilation->network.port_motion);
   const servo_options loop = loop_options(options, *compilation, live);
   const device_description& described = compilation->device->description;
   any_estimator<double> estimator = estimator_of(described);

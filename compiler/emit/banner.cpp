@@ -33,14 +33,6 @@ std::string words_in(const std::vector<std::string>& facts) {
   return text;
 }
 
-std::string length_unit(const Network& network) { return network.port_motion == motion::rotation ? "[rad]" : "[m]"; }
-std::string velocity_unit(const Network& network) {
-  return network.port_motion == motion::rotation ? "[rad/s]" : "[m/s]";
-}
-std::string damping_unit(const Network& network) {
-  return network.port_motion == motion::rotation ? "N·m·s/rad" : "N·s/m";
-}
-
 std::string cost_line(const char* phase, const Cost& cost) {
   return fmt::format("{} {}, {}, {} against subnormal numbers", phase, counted(cost.additions, "addition"),
                      counted(cost.multiplications, "multiplication"), counted(cost.guards, "guard"));
@@ -66,9 +58,9 @@ std::string validity_text(const Network& network) {
   const auto add = [&](const char* what, const std::optional<Range>& range, const std::string& unit) {
     if (range) text += fmt::format("{}{} {} to {} {}", text.empty() ? "" : ", ", what, range->low, range->high, unit);
   };
-  const std::string length = network.port_motion == motion::rotation ? "rad" : "m";
-  add("displacement", network.valid.displacement, length);
-  add("rate", network.valid.rate, length + "/s");
+  const PortUnits units = port_units(network.port_motion);
+  add("displacement", network.valid.displacement, units.position);
+  add("rate", network.valid.rate, units.velocity);
   add("frequency", network.valid.frequency, "Hz");
   return text;
 }
@@ -215,7 +207,7 @@ std::string to_text(const DeviceShare& share) {
 }
 
 std::vector<std::string> banner(const Compilation& c, const UpdateLaw& law, Timing timing) {
-  const std::string unit = damping_unit(c.network);
+  const std::string unit = dotted_units(c.network.port_motion).damping;
   std::vector<std::string> facts;
   if (!c.network.source.empty()) facts.push_back("source: " + c.network.source);
   if (const std::string valid = validity_text(c.network); !valid.empty()) facts.push_back("valid: " + valid);
@@ -266,8 +258,9 @@ void describe_file(const Compilation& c, Fields& fields) {
   fields["scalar"] = name_of(c.law.scalar);
   fields["sample_period"] = cpp_literal(c.law.sample_period, c.law.scalar);
   fields["motion"] = name_of(c.network.port_motion);
-  fields["position_unit"] = length_unit(c.network);
-  fields["velocity_unit"] = velocity_unit(c.network);
+  const PortUnits units = port_units(c.network.port_motion);
+  fields["position_unit"] = fmt::format("[{}]", units.position);
+  fields["velocity_unit"] = fmt::format("[{}]", units.velocity);
 }
 
 }  // namespace dashpot::compiler

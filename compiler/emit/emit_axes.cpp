@@ -89,7 +89,7 @@ std::string list_of(const std::vector<std::string>& values) {
 }
 
 void describe(const AxesCompilation& c, Fields& fields) {
-  const bool rotates = c.device.joint_motion() == motion::rotation;
+  const PortUnits units = dotted_units(c.device.joint_motion());
   std::vector<std::string> added, estimators;
   for (const double damping : c.certificate.added) added.push_back(cpp_literal(damping, c.law.scalar));
   for (const device_description& joint : c.device.joints)
@@ -100,9 +100,9 @@ void describe(const AxesCompilation& c, Fields& fields) {
   fields["name"] = c.network.name;
   fields["scalar"] = name_of(c.law.scalar);
   fields["sample_period"] = cpp_literal(c.law.sample_period, c.law.scalar);
-  fields["position_unit"] = rotates ? "[rad]" : "[m]";
-  fields["velocity_unit"] = rotates ? "[rad/s]" : "[m/s]";
-  fields["damping_unit"] = rotates ? "[N·m·s/rad]" : "[N·s/m]";
+  fields["position_unit"] = fmt::format("[{}]", units.position);
+  fields["velocity_unit"] = fmt::format("[{}]", units.velocity);
+  fields["damping_unit"] = fmt::format("[{}]", units.damping);
   fields["brakes"] = std::to_string(c.device.brakes.size());
   fields["added_damping"] = list_of(added);
   fields["device"] = string_text(c.device.name);
@@ -129,9 +129,9 @@ CodeModel c99_model(const AxesCompilation& c) {
   const C99Program program = c99_program(c.law, c.network.name);
   CodeModel model;
   describe(c, model.fields);
-  const bool rotates = c.device.joint_motion() == motion::rotation;
-  model.fields["is_rotation"] = rotates ? "1" : "0";
-  model.fields["torque_unit"] = rotates ? "[N·m]" : "[N]";
+  const motion joint_motion = c.device.joint_motion();
+  model.fields["is_rotation"] = joint_motion == motion::rotation ? "1" : "0";
+  model.fields["torque_unit"] = fmt::format("[{}]", dotted_units(joint_motion).force);
   model.fields["is_certified"] = c.certificate.certified ? "1" : "0";
   model.lists["banner"] = as_list(banner(c));
   model.lists["command"] = as_list(c99_command_header());

@@ -10,6 +10,7 @@
 #include "emit/response_test.hpp"
 #include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -106,10 +107,10 @@ Lines set_lines(const UpdateLaw& law, const std::string& name, const Lines& set)
 // The box of states as a function of the law, where magnitudes show one.
 Lines box_lines(const Compilation& c, const InputRange& range, const Lines& bounds) {
   if (bounds.empty()) return {};
-  const bool turns = c.network.port_motion == motion::rotation;
+  const PortUnits units = port_units(c.network.port_motion);
   Lines lines = {fmt::format("// While positions stay within ± {:.6g} {} and velocities within ± {:.6g} {}, a law that "
                              "starts at rest at 0",
-                             range.position, turns ? "rad" : "m", range.velocity, turns ? "rad/s" : "m/s"),
+                             range.position, units.position, range.velocity, units.velocity),
                  "// keeps to this box, and from it no operation overflows: 1 where its states are there.",
                  fmt::format("static inline int {0}_is_within(const {0} *self) {{", c.network.name), "  return"};
   for (const std::string& bound : bounds) lines.push_back("      " + bound);

@@ -10,6 +10,7 @@
 
 #include "network/device.hpp"
 #include "network/expression.hpp"
+#include "network/port_units.hpp"
 #include "network/rate_limits.hpp"
 #include "network/read_motion.hpp"
 #include "network/read_value.hpp"
@@ -128,7 +129,7 @@ class DeviceBuilder {
   }
 
  private:
-  const char* speed_unit() const { return motion_ == motion::rotation ? "rad/s" : "m/s"; }
+  std::string speed_unit() const { return port_units(motion_).velocity; }
 
   SectionReader section(const char* name) const { return {decl_, name, motion_, diagnostics_}; }
 

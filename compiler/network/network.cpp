@@ -43,12 +43,12 @@ void append_range(std::string& out, std::string_view what, const std::optional<R
 }
 
 void append_limits(std::string& out, const Network& network) {
-  const bool rotates = network.port_motion == motion::rotation;
+  const PortUnits units = port_units(network.port_motion);
   if (network.static_curve) out += "  static " + to_text(*network.static_curve, network.port_motion) + "\n";
   if (network.contact)
-    fmt::format_to(std::back_inserter(out), "  contact at {} {}\n", network.contact->at, rotates ? "rad" : "m");
-  append_range(out, "rate", network.valid.rate, rotates ? "rad/s" : "m/s");
-  append_range(out, "displacement", network.valid.displacement, rotates ? "rad" : "m");
+    fmt::format_to(std::back_inserter(out), "  contact at {} {}\n", network.contact->at, units.position);
+  append_range(out, "rate", network.valid.rate, units.velocity);
+  append_range(out, "displacement", network.valid.displacement, units.position);
   append_range(out, "frequency", network.valid.frequency, "Hz");
 }
 

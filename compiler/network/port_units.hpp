@@ -4,6 +4,7 @@
 #include <dashpot/servo/unit_names.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace dashpot::compiler {
 
@@ -17,5 +18,11 @@ struct PortUnits {
   std::string fluidity;    // m/(N s) | rad/(N m s)
 };
 PortUnits port_units(motion port_motion);
+
+// "N m s/rad" → "N·m·s/rad"
+std::string dotted(std::string_view unit);
+
+// The units at a port, dotted.
+PortUnits dotted_units(motion port_motion);
 
 }  // namespace dashpot::compiler

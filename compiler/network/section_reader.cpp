@@ -79,7 +79,8 @@ void SectionReader::read_count(std::string_view key, unsigned least, unsigned& t
   else diagnostics_.report<DiagnosticCode::not_a_count>(decl->span, dotted(key), excerpt(decl->text), least);
 }
 
-bool SectionReader::is_within(std::string_view key, double value, double low, double high, const char* unit) const {
+bool SectionReader::is_within(std::string_view key, double value, double low, double high,
+                              std::string_view unit) const {
   if (value >= low && value <= high) return true;
   const ValueDecl* decl = find_single(key);
   if (decl == nullptr) return true;

@@ -42,7 +42,7 @@ class SectionReader {
   void read_pair(std::string_view key, const Dimension& due, Bound bound, double& low, double& high,
                  bool may_be_one = false) const;
   // False, with a diagnostic, for a value that was read and is not from `low` to `high`.
-  bool is_within(std::string_view key, double value, double low, double high, const char* unit) const;
+  bool is_within(std::string_view key, double value, double low, double high, std::string_view unit) const;
   void read_count(std::string_view key, unsigned least, unsigned& target) const;
 
   // The index of the word among `words`.

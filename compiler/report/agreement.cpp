@@ -132,7 +132,7 @@ Plot difference(const Comparison& c) {
 }  // namespace
 
 std::string agreement_html(const Compilation& c) {
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   const RampAndHold press = motion_for(c);
   const Comparison comparison = compare(c, press);
   const bool is_exact = c.law.scheme == Scheme::exact && !(c.law.tunable && !c.law.tunable->mesh_elements.empty());

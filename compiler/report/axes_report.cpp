@@ -234,7 +234,7 @@ std::string drag_json(const AxesCompilation& c, const WorkspaceMap& map, const s
   const axes::Arm& arm = c.device.arm;
   const axes::Box& box = c.device.workspace;
   const MapFrame frame = frame_of(map);
-  const bool rotates = c.device.joint_motion() == motion::rotation;
+  const PortUnits units = dotted_units(c.device.joint_motion());
   std::string brakes;
   for (const AlongBrake& brake : c.device.brakes)
     brakes +=
@@ -246,8 +246,7 @@ std::string drag_json(const AxesCompilation& c, const WorkspaceMap& map, const s
       json_literal(c.network.name), json_literal(c.law.sample_period), json_literal(c.rate), name_of(arm.kind),
       json_literal(arm.proximal), json_literal(arm.distal), json_literal(arm.base), json_literal(box[0].low),
       json_literal(box[0].high), json_literal(box[1].low), json_literal(box[1].high), json_literal(frame.x_of_origin),
-      json_literal(frame.y_of_origin), json_literal(frame.metre), brakes, rotates ? "N·m" : "N",
-      rotates ? "N·m·s/rad" : "N·s/m", base64(module));
+      json_literal(frame.y_of_origin), json_literal(frame.metre), brakes, units.force, units.damping, base64(module));
 }
 
 void add_drag_part(const AxesCompilation& c, const std::optional<std::string>& module, CodeModel& model,

@@ -26,7 +26,7 @@ struct FigureOfMerit {
 
 // In the order of the table: the error comes first, so that it is there on a narrow screen too.
 std::vector<FigureOfMerit> figures_of_merit(const Compilation& c) {
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   const auto known = [](const std::optional<double>& figure) { return figure.value_or(not_computed); };
   std::vector<FigureOfMerit> all = {
       {"largest error of what is felt", "%", [](const Candidate& k) { return 100 * k.largest_error; }},

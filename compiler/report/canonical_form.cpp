@@ -64,7 +64,7 @@ std::string modes_table(const Compilation& c, const PortUnits& units) {
 
 std::string canonical_form_html(const Compilation& c) {
   const LinearForm& form = c.form.linear;
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   std::string html = in_letters() + in_numbers(form) + "<table class=\"facts\"><tbody>\n";
   html += row("static stiffness <i>k</i><sub>0</sub>", number_text(to_double(form.static_stiffness)), units.stiffness);
   html +=

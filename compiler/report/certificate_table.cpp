@@ -43,7 +43,7 @@ std::string encoder_facts(const Certificate& c, const PortUnits& units) {
 
 std::string certificate_html(const Compilation& compilation) {
   const Certificate& c = compilation.certificate;
-  const PortUnits units = page_units(compilation.network.port_motion);
+  const PortUnits units = dotted_units(compilation.network.port_motion);
   std::string html;
   for (const std::string& line : passivity_lines(c, units.damping)) html += sentence(line);
   const std::string facts = (c.bound.proof == Proof::none ? "" : damping_facts(c, units)) + encoder_facts(c, units);

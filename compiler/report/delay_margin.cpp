@@ -35,7 +35,7 @@ Curve margin(const Compilation& c, const Candidate& candidate, const std::string
 
 std::string delay_margin_html(const Compilation& c) {
   const Candidate& choice = c.decomposition.choice();
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   Plot plot{"Damping left under any delay of the estimate",
             {"frequency", "Hz"},
             {"margin", units.damping},

@@ -106,7 +106,7 @@ std::string linear_loop(const Compilation& c) {
   const double frequency = within_valid(c.network, amplitude, std::sqrt(range.low * range.high));
   const Oscillation motion = oscillation(c, amplitude, frequency);
   const LawRun all = run(c, motion);
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   Plot plot = empty_plot("Hysteresis at " + number_text(motion.frequency, 3) + " Hz", units);
   const double added = c.certificate.added_damping;
   const auto closed = [&](std::size_t k) { return closed_form(c.form.linear, added, motion, all.time[k]); };
@@ -141,7 +141,7 @@ double usual_frequency(const Compilation& c) {
 std::string three_loops(const Compilation& c, double middle) {
   constexpr double smallest = 0.5, largest = 2;
   const double frequency = within_valid(c.network, largest * middle, usual_frequency(c));
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   Plot plot = empty_plot("", units);
   for (const double size : {smallest, 1.0, largest}) {
     const Oscillation motion = oscillation(c, size * middle, frequency);

@@ -124,7 +124,7 @@ Interval frequencies_of_interest(const LinearForm& form) {
 
 std::string linear_responses_html(const Compilation& c) {
   const LinearForm& form = c.form.linear;
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   const std::vector<double> frequencies = logarithmic(frequencies_of_interest(form));
   return plot_figure(relaxation(form, units)) + plot_figure(creep(form, units)) +
          plot_figure(moduli(form, units, frequencies)) + plot_figure(loss_tangent(form, frequencies));

@@ -40,13 +40,6 @@ std::string superscript(int exponent) {
   return text;
 }
 
-// "N m s/rad" → "N·m·s/rad"
-std::string dotted(std::string_view unit) {
-  std::string text;
-  for (const char c : unit) text += c == ' ' ? "·" : std::string(1, c);
-  return text;
-}
-
 }  // namespace
 
 std::string number_text(double value, int digits) {
@@ -93,13 +86,6 @@ std::string in_four_digits(std::string_view text) {
     i = end;
   }
   return result;
-}
-
-PortUnits page_units(motion port_motion) {
-  PortUnits units = port_units(port_motion);
-  for (std::string* unit : {&units.force, &units.stiffness, &units.damping, &units.compliance, &units.fluidity})
-    *unit = dotted(*unit);
-  return units;
 }
 
 std::string value_text(const Element& element, motion port_motion) {

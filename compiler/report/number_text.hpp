@@ -23,9 +23,6 @@ std::string power_text(int exponent);
 // 0.0139549". Whole numbers and names with digits stay as they are.
 std::string in_four_digits(std::string_view text);
 
-// Units at a port that moves so, with U+00B7 between factors.
-PortUnits page_units(motion port_motion);
-
 // "12 N/m": an element's value.
 std::string value_text(const Element& element, motion port_motion);
 

@@ -92,7 +92,7 @@ std::string unlisted(const ComponentSplit& split, const Network& network) {
 }
 
 std::string table(const Group& group, const Network& network) {
-  const PortUnits units = page_units(network.port_motion);
+  const PortUnits units = dotted_units(network.port_motion);
   std::string html = fmt::format(
       "<div class=\"wide\"><table class=\"regimes\"><thead><tr><th>sliding</th><th class=\"word\">stuck</th>"
       "<th>brake <i>b</i> [{0}]</th><th>feedthrough <i>b</i><sub>∞</sub> [{0}]</th><th>compensated [{0}]</th>"
@@ -119,7 +119,7 @@ std::string worst_run(const SlipDecomposition& slips) {
 // What each law does in runs of the whole network.
 std::string merits_table(const SlipDecomposition& slips, const Network& network) {
   if (slips.merits.empty()) return "";
-  const PortUnits units = page_units(network.port_motion);
+  const PortUnits units = dotted_units(network.port_motion);
   std::string html = fmt::format(
       "<h3>Candidates in runs of the whole</h3>\n<p>Each law behind all slips that can have it, in runs around yield: "
       "sines at both ends of the band and a drag with reversals; within "

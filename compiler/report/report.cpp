@@ -39,7 +39,7 @@ bool is_linear(const Compilation& c) { return !c.form.has_slips(); }
 
 // What a reader looks for first.
 std::vector<Fields> facts(const Compilation& c) {
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   std::vector<Fields> list;
   list.push_back(fact("brake b", brake_text(c.law), units.damping, "brake"));
   if (!c.ports.empty()) {
@@ -135,7 +135,7 @@ double live_depth(const Compilation& c, double amplitude) {
 }
 
 void add_live_part(const Compilation& c, bool there, double amplitude, CodeModel& model) {
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   for (const char* list : {"live", "led", "live_controls", "live_end", "still", "sliders"}) model.lists[list];
   if (!there) {
     model.lists["still"].push_back({{"why",
@@ -214,7 +214,7 @@ std::string device_json(const Compilation& c) {
 }
 
 std::string live_json(const Compilation& c, const std::string& module) {
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   return fmt::format(
       "{{\"period\":{},\"rate\":{},\"rates\":[{},{}],\"scalar\":\"{}\",\"surface\":{},\"position_unit\":{},"
       "\"force_unit\":{},\"tunables\":{},\"device\":{},\"form\":{},\"units\":{},\"columns\":{},\"module\":\"{}\"}}",

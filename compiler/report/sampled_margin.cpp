@@ -52,7 +52,7 @@ std::string sampled_margin_html(const Compilation& c) {
   const SampledLoop& loop = c.certificate.loop;
   if (!motor || c.certificate.bound.proof == Proof::none) return "";
   if (motor->follows_estimate() && !estimator_factors(loop)) return "";
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   Curve curve = needed(c.certificate, *motor);
   const double sure = c.certificate.assured;
   const std::vector<double> ends = {curve.x.front(), curve.x.back()};

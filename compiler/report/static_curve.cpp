@@ -11,7 +11,7 @@ namespace dashpot::compiler {
 std::string static_curve_html(const Compilation& c, const std::string& of) {
   if (!c.network.map) return "";
   const MotionMap& map = *c.network.map;
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   constexpr int points = 160, dots = 24;
   Curve wanted{"wanted", Channel::closed_form, {}, {}}, made{"emitted map", Channel::total, {}, {}};
   for (int i = 0; i <= points; ++i) {

@@ -99,7 +99,7 @@ std::string brake_text(const UpdateLaw& law) {
 }
 
 std::string update_law_html(const Compilation& c) {
-  const PortUnits units = page_units(c.network.port_motion);
+  const PortUnits units = dotted_units(c.network.port_motion);
   std::string html = fmt::format(
       "<p>At each sample, with the position <i>u</i> and an estimate <i>v̂</i> of the velocity: "
       "<b class=\"brake\">brake</b> <i>b</i>{} {}, <b class=\"motor\">motor</b> <i>m</i> [{}].</p>\n",

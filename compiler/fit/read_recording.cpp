@@ -184,8 +184,10 @@ class RecordingReader {
     // A delimiter at the end of a line either ends the last field or precedes an empty one: the width decides.
     if (count + 1 == shape_.width && shape_.dialect.delimiter != ' ' && line.ends_with(shape_.dialect.delimiter))
       take(line.substr(line.size()));
-    if (count != shape_.width) return report_width(line, number, count);
-    if (is_whole && is_in_order(row, line, number)) add(row, number);
+    if (count != shape_.width)
+      refuse<DiagnosticCode::recording_field_count, DiagnosticCode::recording_remove_row>(
+          line, number, line, counted(count, "field"), shape_.width);
+    else if (is_whole && is_in_order(row, line, number)) add(row, number);
   }
 
   template <class Take>
@@ -210,54 +212,37 @@ class RecordingReader {
 
   bool take_cell(std::string_view field, std::string_view line, std::size_t number, const Place& place, Row& row) {
     const std::optional<double> value = number_of(field, shape_.dialect);
-    if (!value) {
-      ++reported_;
-      diagnostics_.report<DiagnosticCode::recording_not_a_number>(
-          place_of(lines_.path(), line, number, field, diagnostics_), place.column->title, excerpt(field));
-      diagnostics_.note<DiagnosticCode::recording_remove_row>({});
-      return false;
-    }
+    if (!value)
+      return refuse<DiagnosticCode::recording_not_a_number, DiagnosticCode::recording_remove_row>(
+          line, number, field, place.column->title, excerpt(field));
     row.*(place.slot) = (*value + place.offset) * place.factor;
     return true;
   }
 
-  void report_width(std::string_view line, std::size_t number, std::size_t count) {
+  // False: a row with a fault in `part` of its line.
+  template <DiagnosticCode fault, DiagnosticCode remedy, class... Arguments>
+  bool refuse(std::string_view line, std::size_t number, std::string_view part, const Arguments&... arguments) {
     ++reported_;
-    diagnostics_.report<DiagnosticCode::recording_field_count>(
-        place_of(lines_.path(), line, number, line, diagnostics_), counted(count, "field"), shape_.width);
-    diagnostics_.note<DiagnosticCode::recording_remove_row>({});
+    diagnostics_.report<fault>(place_of(lines_.path(), line, number, part, diagnostics_), arguments...);
+    diagnostics_.note<remedy>({});
+    return false;
   }
 
   // A spectrum may come in falling order; it is sorted afterwards.
   bool is_in_order(const Row& row, std::string_view line, std::size_t number) {
     const Recording& so_far = result_.recording;
     const bool is_spectrum = so_far.kind == RecordingKind::frequency;
-    if (is_spectrum && !(row.time > 0)) return refuse_frequency(line, number);
+    if (is_spectrum && !(row.time > 0))
+      return refuse<DiagnosticCode::recording_not_a_frequency, DiagnosticCode::recording_remove_row>(line, number,
+                                                                                                     line);
     if (so_far.time.empty() || (is_spectrum && row.time != so_far.time.back())) return true;
-    if (row.time < so_far.time.back()) return refuse_time(line, number, row.time, so_far.time.back());
+    if (row.time < so_far.time.back())
+      return refuse<DiagnosticCode::recording_time_falls, DiagnosticCode::recording_time_remedy>(
+          line, number, line, row.time, so_far.time.back());
     if (row.time > so_far.time.back()) return true;
     if (row.drive == last_.drive && row.answer == last_.answer && row.loss == last_.loss) return false;
-    ++reported_;
-    diagnostics_.report<DiagnosticCode::recording_two_values>(place_of(lines_.path(), line, number, line, diagnostics_),
-                                                              row.time);
-    diagnostics_.note<DiagnosticCode::recording_two_values_remedy>({});
-    return false;
-  }
-
-  bool refuse_time(std::string_view line, std::size_t number, double time, double before) {
-    ++reported_;
-    diagnostics_.report<DiagnosticCode::recording_time_falls>(place_of(lines_.path(), line, number, line, diagnostics_),
-                                                              time, before);
-    diagnostics_.note<DiagnosticCode::recording_time_remedy>({});
-    return false;
-  }
-
-  bool refuse_frequency(std::string_view line, std::size_t number) {
-    ++reported_;
-    diagnostics_.report<DiagnosticCode::recording_not_a_frequency>(
-        place_of(lines_.path(), line, number, line, diagnostics_));
-    diagnostics_.note<DiagnosticCode::recording_remove_row>({});
-    return false;
+    return refuse<DiagnosticCode::recording_two_values, DiagnosticCode::recording_two_values_remedy>(line, number, line,
+                                                                                                     row.time);
   }
 
   void add(const Row& row, std::size_t number) {

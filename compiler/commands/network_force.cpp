@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "commands/value_columns.hpp"
 #include "compile.hpp"
 #include "law/evaluate.hpp"
 #include "network/rate_limits.hpp"
@@ -61,8 +60,8 @@ class ClosedForm : public NetworkForce {
 // of it made by the motor: no brake and no estimate take part. Between two steps it is straight.
 class OwnSteps : public NetworkForce {
  public:
-  OwnSteps(const Compilation& fine, const Motion& motion, const Path& path, Diagnostics& diagnostics)
-      : path_(path), law_(fine.law), values_(fine, motion, diagnostics), period_(1 / fine.rate) {
+  OwnSteps(const Compilation& fine, const ValueColumns& values, const Path& path)
+      : path_(path), law_(fine.law), values_(values), period_(1 / fine.rate) {
     law_.reset(path.point(0).position);
     last_ = force_ = step();
   }
@@ -80,8 +79,7 @@ class OwnSteps : public NetworkForce {
  private:
   double step() {
     const double time = double(steps_) * period_;
-    Diagnostics heard_from_the_device;
-    values_.set(law_, path_.piece(time), time, heard_from_the_device);
+    values_.set(law_, path_.piece(time));
     const double position = path_.point(time).position;
     const double velocity = steps_ == 0 ? 0 : (position - position_) / period_;
     position_ = position;
@@ -91,7 +89,7 @@ class OwnSteps : public NetworkForce {
 
   const Path& path_;
   Evaluation<double> law_;
-  ValueColumns values_;
+  const ValueColumns values_;
   double period_, position_ = 0, last_ = 0, force_ = 0;
   std::uint64_t steps_ = 0;
 };
@@ -151,9 +149,8 @@ std::optional<ReferenceForce> ReferenceForce::of(const Compilation& c, const Cho
   return reference;
 }
 
-std::unique_ptr<NetworkForce> ReferenceForce::along(const Path& path, const Motion& motion,
-                                                    Diagnostics& diagnostics) const {
-  if (fine_) return std::make_unique<OwnSteps>(*fine_, motion, path, diagnostics);
+std::unique_ptr<NetworkForce> ReferenceForce::along(const Path& path, const ValueColumns& values) const {
+  if (fine_) return std::make_unique<OwnSteps>(*fine_, values, path);
   return std::make_unique<ClosedForm>(compilation_->form.linear, path);
 }
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "commands/motion_csv.hpp"
+#include "commands/value_columns.hpp"
 #include "decompose/choices.hpp"
 #include "emit/emission.hpp"
 
@@ -51,15 +51,14 @@ class NetworkForce {
 };
 
 // A linear network's force is its closed form; another's that of its own steps on an ideal device 32 times as often,
-// all of it made by the motor. `motion` is asked for the values of tunables. Refuses: what does not compile. What is
-// given has to outlive the answer.
+// all of it made by the motor. Refuses: what does not compile. What is given has to outlive the answer, but `values`.
 class ReferenceForce {
  public:
   // Nothing, reported, where it is refused.
   static std::optional<ReferenceForce> of(const Compilation& compilation, const Choices& choices,
                                           Diagnostics& diagnostics);
 
-  std::unique_ptr<NetworkForce> along(const Path& path, const Motion& motion, Diagnostics& diagnostics) const;
+  std::unique_ptr<NetworkForce> along(const Path& path, const ValueColumns& values) const;
   static double finest_period(const Compilation& compilation);  // of steps of its own [s]
 
  private:

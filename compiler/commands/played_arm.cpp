@@ -91,12 +91,12 @@ class ArmForce {
 
   // False, reported, where a port does not compile.
   bool prepare(Diagnostics& diagnostics) {
-    Diagnostics told_once;
     for (std::size_t i = 0; i < c_.ports.size(); ++i) {
       auto reference = ReferenceForce::of(c_.ports[i], c_.choices_of_ports[i], diagnostics);
       if (!reference) return false;
       references_.push_back(std::move(*reference));
-      forces_.push_back(references_.back().along(*paths_[i], no_values_, told_once));
+      // Ports have no tunables.
+      forces_.push_back(references_.back().along(*paths_[i], ValueColumns(c_.ports[i], Motion(), diagnostics)));
     }
     return true;
   }
@@ -133,7 +133,6 @@ class ArmForce {
 
   const AxesCompilation& c_;
   const ArmPath& joints_;
-  const Motion no_values_;  // ports have no tunables
   std::vector<std::unique_ptr<PortPath>> paths_;
   std::vector<ReferenceForce> references_;
   std::vector<std::unique_ptr<NetworkForce>> forces_;

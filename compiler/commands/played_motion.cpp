@@ -11,7 +11,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "commands/value_columns.hpp"
 #include "compile.hpp"
 #include "law/evaluate.hpp"
 #include "network/port_units.hpp"
@@ -24,12 +23,12 @@ namespace {
 template <class Scalar>
 class DevicePlayer : public Player {
  public:
-  DevicePlayer(const Compilation& c, const Motion& motion, const RecordedPath& path, std::uint64_t seed,
+  DevicePlayer(const Compilation& c, const ValueColumns& values, const RecordedPath& path, std::uint64_t seed,
                Diagnostics& diagnostics)
       : diagnostics_(diagnostics),
         description_(c.device->description),
         path_(path),
-        values_(c, motion, diagnostics),
+        values_(values),
         lead_in_(lead_in_samples(description_) * description_.loop.sample_period),
         device_(description_, scene(c.network.port_motion, seed)),
         estimator_(description_.velocity, description_.loop.sample_period, description_.encoder.step),
@@ -55,7 +54,10 @@ class DevicePlayer : public Player {
     const transmission<double>& gear = actuator_.gear();
     const simulated::plant_view before = device_.truth();
     const double since = before.time - lead_in_, time = std::abs(since) < 1e-9 * lead_in_ ? 0 : since;
-    if (time >= 0) values_.set(law_, path_.piece(time), time, diagnostics_);
+    if (time >= 0) {
+      values_.warn_outside_range(path_.piece(time), time, diagnostics_);
+      values_.set(law_, path_.piece(time));
+    }
     const Scalar position = static_cast<Scalar>(gear.tool_motion(sample.position)),
                  velocity = static_cast<Scalar>(gear.tool_motion(estimator_.update(sample)));
     const command<Scalar> wanted = law_.step(position, velocity);
@@ -212,10 +214,9 @@ std::optional<PlayedMotion> play(const Compilation& c, const Choices& choices, c
   if (!has_speeds(path, diagnostics)) return std::nullopt;
   warn_outside_valid(motion, c.network, diagnostics);
   const std::optional<ReferenceForce> reference = ReferenceForce::of(c, choices, diagnostics);
-  ValueColumns(c, motion, diagnostics);
+  const ValueColumns values(c, motion, diagnostics);
   if (diagnostics.has_errors() || !reference) return std::nullopt;
-  Diagnostics told_once;
-  const std::unique_ptr<NetworkForce> force = reference->along(path, motion, told_once);
+  const std::unique_ptr<NetworkForce> force = reference->along(path, values);
   const auto answer = [&](PlayedSample& sample) {
     sample.velocity[0] = path.point(sample.time).velocity;
     sample.closed_form[0] = force->force_at(sample.time);
@@ -223,8 +224,8 @@ std::optional<PlayedMotion> play(const Compilation& c, const Choices& choices, c
   const auto run = [&](auto player) {
     return played_by(player, answer, 1, 1, path.end(), device.loop.sample_period, diagnostics);
   };
-  if (c.law.scalar == ScalarType::float32) return run(DevicePlayer<float>(c, motion, path, seed, diagnostics));
-  return run(DevicePlayer<double>(c, motion, path, seed, diagnostics));
+  if (c.law.scalar == ScalarType::float32) return run(DevicePlayer<float>(c, values, path, seed, diagnostics));
+  return run(DevicePlayer<double>(c, values, path, seed, diagnostics));
 }
 
 std::string csv_of(const PlayedMotion& played) {

@@ -47,7 +47,8 @@ std::string simulate(const Compilation& c, const Motion& motion, Diagnostics& di
   double last_position = 0;
   ValueColumns values(c, motion, diagnostics);
   for (std::size_t i = 0; i < motion.time.size(); ++i) {
-    values.set(law, i, motion.time[i], diagnostics);
+    values.warn_outside_range(i, motion.time[i], diagnostics);
+    values.set(law, i);
     const double position = motion.position[i];
     const double slope = i == 0 ? 0 : (position - last_position) * c.rate;
     const Scalar velocity = static_cast<Scalar>(motion.velocity.empty() ? slope : motion.velocity[i]);

@@ -62,22 +62,20 @@ void ValueColumns::warn_of_misspelt(const Motion& motion, Diagnostics& diagnosti
   }
 }
 
-std::vector<double> ValueColumns::values_of(std::size_t row, double time, Diagnostics& diagnostics) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < tunables_.size(); ++i) {
-    const Values& v = columns_[i];
-    values.push_back(v.column == nullptr ? tunables_[i].range.value : v.factor * v.column->values[row]);
-    warn_once_outside_range(i, values.back(), time, diagnostics);
-  }
-  return values;
+double ValueColumns::value(std::size_t tunable, std::size_t row) const {
+  const Values& v = columns_[tunable];
+  return v.column == nullptr ? tunables_[tunable].range.value : v.factor * v.column->values[row];
 }
 
-void ValueColumns::warn_once_outside_range(std::size_t i, double value, double time, Diagnostics& diagnostics) {
-  const Tunable& tunable = tunables_[i];
-  if (warned_[i] || (value >= tunable.range.min && value <= tunable.range.max)) return;
-  warned_[i] = true;
-  diagnostics.report<DiagnosticCode::outside_tunable_range>(place_of(tunable.name), tunable.name, value, tunable.unit,
-                                                            time, tunable.range.min, tunable.range.max);
+void ValueColumns::warn_outside_range(std::size_t row, double time, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < tunables_.size(); ++i) {
+    const Tunable& tunable = tunables_[i];
+    const double v = value(i, row);
+    if (warned_[i] || (v >= tunable.range.min && v <= tunable.range.max)) continue;
+    warned_[i] = true;
+    diagnostics.report<DiagnosticCode::outside_tunable_range>(place_of(tunable.name), tunable.name, v, tunable.unit,
+                                                              time, tunable.range.min, tunable.range.max);
+  }
 }
 
 Span ValueColumns::place_of(const std::string& tunable) const {

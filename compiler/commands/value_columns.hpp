@@ -16,13 +16,17 @@ class ValueColumns {
   // motion's own. Warns of a column whose name is nearly one.
   ValueColumns(const Compilation& c, const Motion& motion, Diagnostics& diagnostics);
 
-  // Sets the values of a row, and warns once of each tunable that is out of its range.
+  // Sets the values of a row.
   template <class Scalar>
-  void set(Evaluation<Scalar>& law, std::size_t row, double time, Diagnostics& diagnostics) {
+  void set(Evaluation<Scalar>& law, std::size_t row) const {
     if (is_empty_) return;
-    const std::vector<double> values = values_of(row, time, diagnostics);
-    law.set(std::vector<Scalar>(values.begin(), values.end()));
+    std::vector<Scalar> values;
+    for (std::size_t i = 0; i < tunables_.size(); ++i) values.push_back(static_cast<Scalar>(value(i, row)));
+    law.set(values);
   }
+
+  // Warns of a tunable whose value is out of its range in a row, once of each.
+  void warn_outside_range(std::size_t row, double time, Diagnostics& diagnostics);
 
  private:
   // What the motion says of a tunable.
@@ -33,8 +37,7 @@ class ValueColumns {
 
   static Values values_of(const Tunable& tunable, const Motion& motion, Diagnostics& diagnostics);
   void warn_of_misspelt(const Motion& motion, Diagnostics& diagnostics) const;
-  std::vector<double> values_of(std::size_t row, double time, Diagnostics& diagnostics);
-  void warn_once_outside_range(std::size_t i, double value, double time, Diagnostics& diagnostics);
+  double value(std::size_t tunable, std::size_t row) const;
   Span place_of(const std::string& tunable) const;
   void refuse_name_of_motion(const std::string& tunable, Diagnostics& diagnostics) const;
 

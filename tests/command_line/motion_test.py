@@ -150,11 +150,21 @@ class Motion(CommandTest):
         changed, _ = self.played(TUNABLE, self.device(), table(recorded, f"time,position,{name}"))
         self.assertNotEqual([row["closed_form"] for row in still], [row["closed_form"] for row in changed])
 
+    def soft(self):
+        """A spring that can be made softer."""
+        return self.write("soft.json", """{"dashpot": 1, "name": "soft", "network": {"spring": "K"}, "parameters":
+            {"K": {"value": "100 N/m", "min": "10 N/m", "max": "200 N/m", "tunable": true}}}""")
+
+    def test_a_column_is_told_of_once(self):
+        """Fails if a misspelt column of values is told of the law on the device and again of the network's own."""
+        self.write("motion.csv", table([(k / 2000, 0.01, 49) for k in range(40)], "time,position,k"))
+        told = self.dashpot("run", self.soft(), "--device", self.device(), "--motion", "motion.csv").stderr
+        self.assertEqual(told.count("[csv-misspelt-tunable]"), 1, told)
+
     def test_values_of_the_first_row(self):
         """Fails if the network's own force begins with other values than the first row sets, as the device does."""
-        net = self.write("soft.json", """{"dashpot": 1, "name": "soft", "network": {"spring": "K"}, "parameters":
-            {"K": {"value": "100 N/m", "min": "10 N/m", "max": "200 N/m", "tunable": true}}}""")
-        rows, _ = self.played(net, self.device(), table([(k / 2000, 0.01, 49) for k in range(40)], "time,position,K"))
+        motion = table([(k / 2000, 0.01, 49) for k in range(40)], "time,position,K")
+        rows, _ = self.played(self.soft(), self.device(), motion)
         self.assertAlmostEqual(rows[0]["motor_force"], 0.7)  # of a softer spring F √(k′/k), all energy that there is
         self.assertAlmostEqual(rows[0]["closed_form"], rows[0]["motor_force"], delta=1e-15)
 

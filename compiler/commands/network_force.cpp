@@ -6,6 +6,7 @@
 #include "compile.hpp"
 #include "law/evaluate.hpp"
 #include "network/rate_limits.hpp"
+#include "source/errors_alone.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -101,11 +102,9 @@ std::optional<Compilation> compiled_finely(const Compilation& c, const Choices& 
   fine.scheme = Scheme::exact;
   fine.scalar = ScalarType::float64;
   fine.rate = std::min(c.rate * finer_steps, highest_rate);
-  Diagnostics of_rates;  // warnings about the finer rate are of no use to the caller
   StageTimes unseen;
-  std::optional<Compilation> compiled = compile(c.network, fine, std::nullopt, of_rates, unseen);
-  if (!compiled) diagnostics.take_errors(of_rates);
-  return compiled;
+  return with_errors_alone(diagnostics,
+                           [&](Diagnostics& own) { return compile(c.network, fine, std::nullopt, own, unseen); });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "compile_axes.hpp"
 #include "linear/reach.hpp"
+#include "source/errors_alone.hpp"
 #include "verify/compare_certificates.hpp"
 #include "verify/compare_headers.hpp"
 #include "verify/read_certificate.hpp"
@@ -25,13 +26,10 @@ std::optional<AxesCompilation> recompiled(const SourceFile& file, const AxesCert
     device = read_axes_device(files.keep("device of the certificate", *certificate.device_text), diagnostics);
     if (!device) return no_certificate(), std::nullopt;
   }
-  Diagnostics of_network;  // its warnings were given when it was compiled
   StageTimes unseen;
-  std::optional<AxesCompilation> compiled = compile_axes(network, certificate.choices, device, of_network, unseen);
-  if (!compiled) {
-    diagnostics.take_errors(of_network);
-    return no_certificate(), std::nullopt;
-  }
+  std::optional<AxesCompilation> compiled = with_errors_alone(
+      diagnostics, [&](Diagnostics& own) { return compile_axes(network, certificate.choices, device, own, unseen); });
+  if (!compiled) return no_certificate(), std::nullopt;
   for (const Compilation& port : compiled->ports)
     if (!is_within_reach(port.network, diagnostics, most_verified_nodes)) return std::nullopt;
   return compiled;

@@ -6,6 +6,7 @@
 #include "commands/verify_axes_texts.hpp"
 #include "compile.hpp"
 #include "linear/reach.hpp"
+#include "source/errors_alone.hpp"
 #include "source/excerpt.hpp"
 #include "syntax/parse_axes.hpp"
 #include "verify/compare_certificates.hpp"
@@ -47,14 +48,12 @@ class TextsVerification {
 
   // Whether network and device are what they should be.
   bool read_subject() {
-    Diagnostics of_network;  // its warnings were given when it was compiled
-    network_ = check(network_file_, of_network);
     if (certificate_.device_text)
       device_ = read_device(files_.keep("device of the certificate", *certificate_.device_text), diagnostics_);
+    network_ = with_errors_alone(diagnostics_, [&](Diagnostics& own) { return check(network_file_, own); });
     port_ = !network_ ? std::nullopt
             : device_ ? PortDevice::of(*device_, *network_, diagnostics_)
                       : PortDevice::ideal();
-    if (!network_) diagnostics_.take_errors(of_network);
     if (!port_ || diagnostics_.has_errors()) {
       diagnostics_.report<DiagnosticCode::no_certificate>({}, certificate_file_.path(),
                                                           "its network or device is not read");
@@ -127,10 +126,9 @@ class TextsVerification {
 
   bool recompile() {
     if (compiled_) return true;
-    Diagnostics of_network;  // its warnings were given when it was compiled
-    compiled_ = compile(network_file_, certificate_.as_asked(), device_, of_network);
+    compiled_ = with_errors_alone(
+        diagnostics_, [&](Diagnostics& own) { return compile(network_file_, certificate_.as_asked(), device_, own); });
     if (compiled_) return true;
-    diagnostics_.take_errors(of_network);
     diagnostics_.report<DiagnosticCode::no_certificate>({}, network_file_.path(), "its network does not compile");
     return false;
   }

@@ -5,6 +5,7 @@
 #include "check/check.hpp"
 #include "commands/verify_axes_texts.hpp"
 #include "compile.hpp"
+#include "emit/step_shape.hpp"
 #include "linear/reach.hpp"
 #include "source/errors_alone.hpp"
 #include "source/excerpt.hpp"
@@ -21,16 +22,16 @@ bool is_of_many_points(const Network& network, const std::string& code) {
   return code.find(fmt::format("\nclass {}_batch {{\n", network.name)) != code.npos;
 }
 
-// What is written of the network: the header that decides by jumps and the one in constant time, of one point or of
-// many.
-std::vector<std::string> emitted(const Compilation& compiled, bool of_many_points) {
+// What is written of the network: the header that decides by jumps and the one in constant time, where there is one; of
+// one point or of many.
+std::vector<std::string> emitted(const Compilation& compiled, bool of_many_points, Diagnostics& diagnostics) {
   std::vector<std::string> texts;
-  Diagnostics of_emission;  // constant time may be refused; then only the plain header is compared
   for (const bool constant_time : {false, true}) {
+    if (constant_time && !can_be_timed(compiled)) continue;
     EmissionOptions options;
     options.constant_time = constant_time;
     options.batch = of_many_points;
-    if (auto files = emit_cpp(compiled, options, of_emission))
+    if (auto files = emit_cpp(compiled, options, diagnostics))
       texts.push_back(std::move(files->at(of_many_points ? 1 : 0).text));
   }
   return texts;
@@ -67,7 +68,8 @@ class TextsVerification {
   std::size_t verify(const SourceFile& header) {
     const bool of_many = is_of_many_points(*network_, header.text());
     if (of_many && !recompile()) return 0;
-    const SourceFile& of_one = of_many ? files_.keep("header of one point", emitted(*compiled_, false).at(0)) : header;
+    const SourceFile& of_one =
+        of_many ? files_.keep("header of one point", emitted(*compiled_, false, diagnostics_).at(0)) : header;
     const std::optional<HeaderConstants> constants = header_constants(of_one.text());
     if (!constants) {
       diagnostics_.report<DiagnosticCode::no_emitted_header>({}, of_one.path());
@@ -79,7 +81,7 @@ class TextsVerification {
         is_linear ? verify_linear_constants(certificate_, *network_, *port_, *constants, diagnostics_) : 0;
     if (!recompile()) return 0;
     if (!is_linear) count = verify_constants(certificate_, *port_, *constants, *compiled_, diagnostics_);
-    compare_headers(emitted(*compiled_, of_many), header, diagnostics_);
+    compare_headers(emitted(*compiled_, of_many, diagnostics_), header, diagnostics_);
     if (!diagnostics_.has_errors()) verify_bounds(certificate_, *port_, *constants, *compiled_, diagnostics_);
     if (!diagnostics_.has_errors()) {
       std::string again = certificate_text(*compiled_, certificate_.as_asked(), certificate_.network_text,
@@ -117,7 +119,7 @@ class TextsVerification {
     const bool is_known = bound.proof == Proof::hold ? loop.amplifier_lag == 0 : bound.storage.has_value();
     if (loop.motor_slew > 0 || !is_known) return;
     const auto [status, words] =
-        dashpot_check::verdict(emitted(*compiled_, false).at(0), std::string(certificate_file_.text()));
+        dashpot_check::verdict(emitted(*compiled_, false, diagnostics_).at(0), std::string(certificate_file_.text()));
     const bool is_proved = status == 0 || status == 4;  // 4: and less damping is there, as the certificate says itself
     if (!is_proved)
       diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "independent check",

@@ -62,8 +62,10 @@ bool is_name_of_c(std::string_view name) {
 
 }  // namespace
 
+bool can_be_timed(const Compilation& c) { return c.law.couplings.empty() && c.law.networks.empty(); }
+
 bool can_be_timed(const Compilation& c, Diagnostics& diagnostics) {
-  if (c.law.couplings.size() + c.law.networks.size() == 0) return true;
+  if (can_be_timed(c)) return true;
   diagnostics.report<DiagnosticCode::step_of_coupled_slips>(c.network.name_span, c.network.name);
   diagnostics.note<DiagnosticCode::bounded_step_remedy>({}, operations_of(c.law));
   return false;

@@ -5,7 +5,9 @@
 
 namespace dashpot::compiler {
 
-// Refuses coupled slips in constant time: the time that their solvers take depends on the values.
+// Whether a step may be asked to take constant time: not of coupled slips, whose solvers' time depends on the values.
+bool can_be_timed(const Compilation& compilation);
+// The same, and reports what it says no to.
 bool can_be_timed(const Compilation& compilation, Diagnostics& diagnostics);
 
 // Refuses, in C99, names that C or <dashpot/command.h> keeps: the network's name is also that of a type.

@@ -75,9 +75,10 @@ struct Column {
   double factor;
 };
 
-class CsvTable {
+// A table's text in lines and cells, before anything in it can be wrong.
+class CsvLines {
  public:
-  CsvTable(const SourceFile& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+  explicit CsvLines(const SourceFile& file) : file_(file) {}
 
   bool is_motion() {
     find_dialect();
@@ -90,6 +91,94 @@ class CsvTable {
     find_dialect();
     return is_joint_header(columns_of(find_header(is_joint_header)));
   }
+
+ protected:
+  // Commas where nothing tells.
+  void find_dialect() {
+    std::vector<fitting::HeadLine> head;
+    for (Cell line = next_line(); !line.text.empty() && head.size() < fitting::head_lines; line = next_line())
+      head.push_back({std::string(line.text), head.size() + 1});
+    place_ = 0;
+    dialect_ = fitting::dialect_of(head).value_or(fitting::Dialect());
+  }
+
+  static std::vector<fitting::TableColumn> columns_of(const std::vector<Cell>& line) {
+    std::vector<fitting::TableColumn> columns;
+    for (const Cell& cell : line) columns.push_back(fitting::table_column(cell.text));
+    return columns;
+  }
+
+  // The first line whose columns are a header's; without one the first line, whose want is told.
+  std::vector<Cell> find_header(bool (*is_header)(const std::vector<fitting::TableColumn>&)) {
+    std::vector<Cell> first;
+    std::size_t behind_first = 0;
+    for (std::size_t i = 0; i < fitting::head_lines; ++i) {
+      const Cell text = next_line();
+      if (text.text.empty()) break;
+      const std::vector<Cell> line = names_in(text);
+      if (line.empty()) continue;  // the sign of a comment alone
+      if (first.empty()) first = line, behind_first = place_;
+      if (is_header(columns_of(line))) return line;
+    }
+    place_ = behind_first;
+    return first;
+  }
+
+  // The names may stand behind the sign of a comment.
+  std::vector<Cell> names_in(Cell line) const {
+    while (line.text.starts_with('#') || line.text.starts_with('%')) line.text.remove_prefix(1), ++line.span.begin;
+    return line.text.empty() ? std::vector<Cell>() : cells_in(line);
+  }
+
+  // The next line that is not blank, without blanks around it; empty at the end of the file.
+  Cell next_line() {
+    const std::string_view all = file_.text();
+    while (place_ < all.size()) {
+      const std::size_t begin = place_, end = std::min(all.find_first_of("\n\r", place_), all.size());
+      place_ = end + 1;
+      if (const Cell line = trimmed(begin, end); !line.text.empty()) return line;
+    }
+    return {};
+  }
+
+  // A delimiter at the end of a line ends its last field, or stands before one that is empty where one is missing.
+  std::vector<Cell> next_row(std::size_t width) {
+    const Cell line = next_line();
+    if (line.text.empty()) return {};
+    std::vector<Cell> cells = cells_in(line);
+    const bool ends_open = dialect_.delimiter != ' ' && line.text.back() == dialect_.delimiter;
+    if (ends_open && cells.size() + 1 == width)
+      cells.push_back({line.text.substr(line.text.size()), {&file_, line.span.end, line.span.end}});
+    return cells;
+  }
+
+  std::vector<Cell> cells_in(const Cell& line) const {
+    std::vector<Cell> cells;
+    for (const std::string_view field : fitting::fields_of(line.text, dialect_)) {
+      const std::size_t begin =
+          field.data() == nullptr ? line.span.end : static_cast<std::size_t>(field.data() - file_.text().data());
+      cells.push_back({field, {&file_, begin, begin + field.size()}});
+    }
+    return cells;
+  }
+
+  Cell trimmed(std::size_t begin, std::size_t end) const {
+    const std::string_view all = file_.text();
+    const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+    if (begin == 0 && all.substr(0, 3) == "\xEF\xBB\xBF") begin = 3;
+    while (begin < end && is_blank(all[begin])) ++begin;
+    while (begin < end && is_blank(all[end - 1])) --end;
+    return {all.substr(begin, end - begin), {&file_, begin, end}};
+  }
+
+  const SourceFile& file_;
+  std::size_t place_ = 0;
+  fitting::Dialect dialect_;
+};
+
+class CsvTable : CsvLines {
+ public:
+  CsvTable(const SourceFile& file, Diagnostics& diagnostics) : CsvLines(file), diagnostics_(diagnostics) {}
 
   std::optional<Motion> read() {
     if (!is_text()) return std::nullopt;
@@ -172,37 +261,6 @@ class CsvTable {
     return std::nullopt;
   }
 
-  // Commas where nothing tells.
-  void find_dialect() {
-    std::vector<fitting::HeadLine> head;
-    for (Cell line = next_line(); !line.text.empty() && head.size() < fitting::head_lines; line = next_line())
-      head.push_back({std::string(line.text), head.size() + 1});
-    place_ = 0;
-    dialect_ = fitting::dialect_of(head).value_or(fitting::Dialect());
-  }
-
-  static std::vector<fitting::TableColumn> columns_of(const std::vector<Cell>& line) {
-    std::vector<fitting::TableColumn> columns;
-    for (const Cell& cell : line) columns.push_back(fitting::table_column(cell.text));
-    return columns;
-  }
-
-  // The first line whose columns are a header's; without one the first line, whose want is told.
-  std::vector<Cell> find_header(bool (*is_header)(const std::vector<fitting::TableColumn>&)) {
-    std::vector<Cell> first;
-    std::size_t behind_first = 0;
-    for (std::size_t i = 0; i < fitting::head_lines; ++i) {
-      const Cell text = next_line();
-      if (text.text.empty()) break;
-      const std::vector<Cell> line = names_in(text);
-      if (line.empty()) continue;  // the sign of a comment alone
-      if (first.empty()) first = line, behind_first = place_;
-      if (is_header(columns_of(line))) return line;
-    }
-    place_ = behind_first;
-    return first;
-  }
-
   static std::string line_of(const std::vector<Cell>& header) {
     std::string line;
     for (const Cell& cell : header) line += (line.empty() ? "" : ",") + std::string(cell.text);
@@ -237,16 +295,9 @@ class CsvTable {
     return Column{index, unit->factor};
   }
 
-  // The names may stand behind the sign of a comment.
-  std::vector<Cell> names_in(Cell line) const {
-    while (line.text.starts_with('#') || line.text.starts_with('%')) line.text.remove_prefix(1), ++line.span.begin;
-    return line.text.empty() ? std::vector<Cell>() : cells_in(line);
-  }
-
   // Units beside the names, or in a line of their own below.
   std::vector<fitting::TableColumn> with_units(const std::vector<Cell>& header) {
-    std::vector<fitting::TableColumn> columns;
-    for (const Cell& cell : header) columns.push_back(fitting::table_column(cell.text));
+    std::vector<fitting::TableColumn> columns = columns_of(header);
     const std::size_t before = place_;
     const std::vector<Cell> below = names_in(next_line());
     const auto is_unit = [](const Cell& cell) { return fitting::is_unit(cell.text); };
@@ -257,47 +308,6 @@ class CsvTable {
     for (std::size_t i = 0; i < columns.size(); ++i)
       if (!below[i].text.empty()) columns[i] = {columns[i].title, columns[i].title, std::string(below[i].text)};
     return columns;
-  }
-
-  // The next line that is not blank, without blanks around it; empty at the end of the file.
-  Cell next_line() {
-    const std::string_view all = file_.text();
-    while (place_ < all.size()) {
-      const std::size_t begin = place_, end = std::min(all.find_first_of("\n\r", place_), all.size());
-      place_ = end + 1;
-      if (const Cell line = trimmed(begin, end); !line.text.empty()) return line;
-    }
-    return {};
-  }
-
-  // A delimiter at the end of a line ends its last field, or stands before one that is empty where one is missing.
-  std::vector<Cell> next_row(std::size_t width) {
-    const Cell line = next_line();
-    if (line.text.empty()) return {};
-    std::vector<Cell> cells = cells_in(line);
-    const bool ends_open = dialect_.delimiter != ' ' && line.text.back() == dialect_.delimiter;
-    if (ends_open && cells.size() + 1 == width)
-      cells.push_back({line.text.substr(line.text.size()), {&file_, line.span.end, line.span.end}});
-    return cells;
-  }
-
-  std::vector<Cell> cells_in(const Cell& line) const {
-    std::vector<Cell> cells;
-    for (const std::string_view field : fitting::fields_of(line.text, dialect_)) {
-      const std::size_t begin =
-          field.data() == nullptr ? line.span.end : static_cast<std::size_t>(field.data() - file_.text().data());
-      cells.push_back({field, {&file_, begin, begin + field.size()}});
-    }
-    return cells;
-  }
-
-  Cell trimmed(std::size_t begin, std::size_t end) const {
-    const std::string_view all = file_.text();
-    const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-    if (begin == 0 && all.substr(0, 3) == "\xEF\xBB\xBF") begin = 3;
-    while (begin < end && is_blank(all[begin])) ++begin;
-    while (begin < end && is_blank(all[end - 1])) --end;
-    return {all.substr(begin, end - begin), {&file_, begin, end}};
   }
 
   std::optional<Column> column(const std::vector<fitting::TableColumn>& columns, const std::vector<Cell>& header,
@@ -398,10 +408,7 @@ class CsvTable {
     diagnostics_.note<DiagnosticCode::csv_uniform_remedy>({}, uniformity, irregular.unit, coarsest_share);
   }
 
-  const SourceFile& file_;
   Diagnostics& diagnostics_;
-  std::size_t place_ = 0;
-  fitting::Dialect dialect_;
   std::vector<Span> row_spans_;
   TimeDigits digits_;
   bool failed_ = false;
@@ -430,9 +437,8 @@ std::optional<JointMotion> parse_joint_motion(const SourceFile& file, Diagnostic
 }
 
 std::optional<MotionOf> motion_in(const SourceFile& beginning) {
-  Diagnostics of_reader;
-  if (CsvTable(beginning, of_reader).is_joint_motion()) return MotionOf::joints;
-  return CsvTable(beginning, of_reader).is_motion() ? std::optional(MotionOf::port) : std::nullopt;
+  if (CsvLines(beginning).is_joint_motion()) return MotionOf::joints;
+  return CsvLines(beginning).is_motion() ? std::optional(MotionOf::port) : std::nullopt;
 }
 
 bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics) {

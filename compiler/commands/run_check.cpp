@@ -20,19 +20,6 @@ bool is_table(const std::string& path) {
   return ending == ".csv" || ending == ".tsv" || ending == ".txt" || ending == ".dat";
 }
 
-// What --columns or --no-header is given for is a recording; else the header tells.
-bool is_recording(const std::string& path, const FitWords& words) {
-  Diagnostics of_reader;  // a file that cannot be read is taken for a recording, whose reader reports it
-  std::string head;
-  fitting::LineReader lines(path, fitting::ReadProgress());
-  if (words.columns || words.no_header || !lines.open(of_reader)) return true;
-  while (lines.number() < fitting::head_lines)
-    if (const auto line = lines.next(of_reader)) head.append(*line) += '\n';
-    else break;
-  const SourceFile beginning(path, head);
-  return !motion_in(beginning);
-}
-
 // What is no JSON is told of as a network.
 bool is_device(const SourceFile& file) {
   const std::optional<JsonValue> root = json_in(file);
@@ -64,17 +51,37 @@ void check_recording(const std::string& path, fitting::ReadChoices choices, cons
   if (lines.open(diagnostics)) read_recording(lines, choices, diagnostics);
 }
 
+// Its first lines; nothing, reported, where it cannot be read.
+std::optional<SourceFile> head_of(const std::string& path, Diagnostics& diagnostics) {
+  fitting::LineReader lines(path, fitting::ReadProgress());
+  if (!lines.open(diagnostics)) return std::nullopt;
+  std::string head;
+  while (lines.number() < fitting::head_lines)
+    if (const auto line = lines.next(diagnostics)) head.append(*line) += '\n';
+    else break;
+  return lines.has_failed() ? std::nullopt : std::optional(SourceFile(path, head));
+}
+
+// What --columns or --no-header is given for is a recording; else the header tells.
+void check_table(const std::string& path, const FitWords& words, const fitting::ReadChoices& reading,
+                 SourceFiles& files, Diagnostics& diagnostics) {
+  std::optional<MotionOf> motion;
+  if (!words.columns && !words.no_header) {
+    const std::optional<SourceFile> head = head_of(path, diagnostics);
+    if (!head) return;
+    motion = motion_in(*head);
+  }
+  if (!motion) return check_recording(path, reading, words, diagnostics);
+  if (const SourceFile* file = files.open(path, diagnostics))
+    *motion == MotionOf::joints ? void(parse_joint_motion(*file, diagnostics)) : void(parse_motion(*file, diagnostics));
+}
+
 void check(const std::string& path, const Options& options, const fitting::ReadChoices& reading,
            const DeviceChoice& device, SourceFiles& files, Diagnostics& diagnostics) {
-  if (is_table(path) && is_recording(path, options.fit))
-    return check_recording(path, reading, options.fit, diagnostics);
-  const SourceFile* file =
-      is_table(path) ? files.open(path, diagnostics) : open_network(path, options, files, diagnostics);
+  if (is_table(path)) return check_table(path, options.fit, reading, files, diagnostics);
+  const SourceFile* file = open_network(path, options, files, diagnostics);
   if (file == nullptr) return;
-  if (is_table(path)) {
-    motion_in(*file) == MotionOf::joints ? void(parse_joint_motion(*file, diagnostics))
-                                         : void(parse_motion(*file, diagnostics));
-  } else if (is_device(*file)) {
+  if (is_device(*file)) {
     axes_of(*file) > 1 ? void(read_axes_device(*file, diagnostics)) : void(read_device(*file, diagnostics));
   } else if (has_two_axes(*file)) {
     if (const auto axes = compile_axes(*file, options, device, diagnostics))

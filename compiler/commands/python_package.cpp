@@ -148,12 +148,6 @@ bool is_word_of_python(const std::string& name) {
   return std::find(std::begin(words_of_python), std::end(words_of_python), name) != std::end(words_of_python);
 }
 
-std::optional<std::string> filled(const char* name, const CodeModel& model, const EmissionOptions& options,
-                                  Diagnostics& diagnostics) {
-  const SourceFile* shape = find_template(name, options.templates, diagnostics);
-  return shape == nullptr ? std::nullopt : fill(*shape, model, diagnostics);
-}
-
 // The words that make law.so of law.c; the package says them where it is on another machine. Packing the few numbers of
 // a state into vectors, to store them at once, costs more than it saves.
 std::vector<std::string> words_of_compiler(const std::string& compiler) {
@@ -192,12 +186,12 @@ std::optional<std::vector<OutputFile>> emit_python(const Compilation& compilatio
   }
   std::optional<std::vector<OutputFile>> files = emit_c99(compilation, options, diagnostics);
   if (!files) return std::nullopt;
-  std::optional<std::string> law =
-      filled("python_law.c.in", {described(compilation, {"name", "scalar", "rate"}), {}}, options, diagnostics);
+  std::optional<std::string> law = filled("python_law.c.in", {described(compilation, {"name", "scalar", "rate"}), {}},
+                                          options.templates, diagnostics);
   std::optional<std::string> package =
       filled("python_package.py.in",
              {described(compilation, {"build", "digest", "motion", "name", "rate", "scalar", "title", "version"}), {}},
-             options, diagnostics);
+             options.templates, diagnostics);
   if (!law || !package) return std::nullopt;
   files->push_back({"law.c", std::move(*law)});
   std::optional<std::string> library = library_of(*files, diagnostics);

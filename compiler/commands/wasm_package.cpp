@@ -66,10 +66,7 @@ std::optional<std::vector<OutputFile>> emit_wasm(const Compilation& compilation,
   for (const auto& [shape_name, file, model] :
        {std::tuple("wasm_package.js.in", "index.js", script_model(compilation)),
         std::tuple("wasm_package.d.ts.in", "index.d.ts", types_model(compilation))}) {
-    const SourceFile* shape = find_template(shape_name, options.templates, diagnostics);
-    std::optional<std::string> text = shape ? fill(*shape, model, diagnostics) : std::nullopt;
-    if (!text) return std::nullopt;
-    files.push_back({name + "/" + file, std::move(*text)});
+    if (!append_filled(shape_name, name + "/" + file, model, options, files, diagnostics)) return std::nullopt;
   }
   files.push_back({name + "/package.json", package_file(compilation)});
   std::optional<std::string> module = web_module_for_target(compilation, options, diagnostics);

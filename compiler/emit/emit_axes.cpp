@@ -143,36 +143,25 @@ CodeModel c99_model(const AxesCompilation& c) {
 
 std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& compilation, const EmissionOptions& options,
                                                      Diagnostics& diagnostics) {
-  const SourceFile* shape = find_template("axes.hpp.in", options.templates, diagnostics);
-  if (!shape) return std::nullopt;
   const std::string& name = compilation.network.name;
-  std::optional<std::string> text = fill(*shape, cpp_model(compilation), diagnostics);
-  if (!text) return std::nullopt;
-  std::vector<OutputFile> files = {{name + ".hpp", std::move(*text)}};
-  if (options.with_live) {
-    const SourceFile* live = find_template("axes_live.cpp.in", options.templates, diagnostics);
-    std::optional<std::string> source = live ? fill(*live, {{{"name", name}}, {}}, diagnostics) : std::nullopt;
-    if (!source) return std::nullopt;
-    files.push_back({name + "_live.cpp", std::move(*source)});
-  }
-  if (options.with_test) {
-    const SourceFile* test = find_template("axes_test.cpp.in", options.templates, diagnostics);
-    std::optional<std::string> source =
-        test ? fill(*test, axes_response_test_model(compilation), diagnostics) : std::nullopt;
-    if (!source) return std::nullopt;
-    files.push_back({name + "_test.cpp", std::move(*source)});
-  }
-  return files;
+  std::vector<OutputFile> files;
+  const auto is_appended = [&](const char* shape, const char* ending, const CodeModel& model) {
+    return append_filled(shape, name + ending, model, options, files, diagnostics);
+  };
+  bool ok = is_appended("axes.hpp.in", ".hpp", cpp_model(compilation));
+  if (options.with_live) ok = ok && is_appended("axes_live.cpp.in", "_live.cpp", {{{"name", name}}, {}});
+  if (options.with_test) ok = ok && is_appended("axes_test.cpp.in", "_test.cpp", axes_response_test_model(compilation));
+  return ok ? std::optional(std::move(files)) : std::nullopt;
 }
 
 std::optional<std::vector<OutputFile>> emit_axes_c99(const AxesCompilation& compilation, const EmissionOptions& options,
                                                      Diagnostics& diagnostics) {
   const AxesNetwork& network = compilation.network;
   if (!can_be_c99(network.name, network.name_span, diagnostics)) return std::nullopt;
-  const SourceFile* shape = find_template("axes.h.in", options.templates, diagnostics);
-  std::optional<std::string> text = shape ? fill(*shape, c99_model(compilation), diagnostics) : std::nullopt;
-  if (!text) return std::nullopt;
-  return std::vector<OutputFile>{{network.name + ".h", std::move(*text)}};
+  std::vector<OutputFile> files;
+  if (!append_filled("axes.h.in", network.name + ".h", c99_model(compilation), options, files, diagnostics))
+    return std::nullopt;
+  return files;
 }
 
 }  // namespace dashpot::compiler

@@ -154,20 +154,15 @@ CodeModel c_header_model(const Compilation& c) {
 std::optional<std::vector<OutputFile>> emit_c99(const Compilation& compilation, const EmissionOptions& options,
                                                 Diagnostics& diagnostics) {
   if (!can_be_c99(compilation.network.name, compilation.network.name_span, diagnostics)) return std::nullopt;
-  const SourceFile* shape = find_template("network.h.in", options.templates, diagnostics);
-  if (!shape) return std::nullopt;
-  std::optional<std::string> text = fill(*shape, c_header_model(compilation), diagnostics);
-  if (!text) return std::nullopt;
-  std::vector<OutputFile> files = {{compilation.network.name + ".h", std::move(*text)}};
+  const std::string& name = compilation.network.name;
+  std::vector<OutputFile> files;
+  if (!append_filled("network.h.in", name + ".h", c_header_model(compilation), options, files, diagnostics))
+    return std::nullopt;
   if (!options.with_test) return files;
-  const SourceFile* test = find_template("network_test.c.in", options.templates, diagnostics);
-  if (!test) return std::nullopt;
   CodeModel model = response_test_model(compilation, "log1p");
   model.fields["scalar"] = name_of(compilation.law.scalar);
   model.fields["roundoff"] = fmt::format("{:#}", unit_roundoff(compilation.law.scalar));
-  std::optional<std::string> test_text = fill(*test, model, diagnostics);
-  if (!test_text) return std::nullopt;
-  files.push_back({compilation.network.name + "_test.c", std::move(*test_text)});
+  if (!append_filled("network_test.c.in", name + "_test.c", model, options, files, diagnostics)) return std::nullopt;
   return files;
 }
 

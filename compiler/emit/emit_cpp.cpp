@@ -97,15 +97,6 @@ CodeModel live_model(const Compilation& c) {
   return model;
 }
 
-bool append(const std::string& template_name, const std::string& file, const CodeModel& model,
-            const EmissionOptions& options, std::vector<OutputFile>& files, Diagnostics& diagnostics) {
-  const SourceFile* shape = find_template(template_name, options.templates, diagnostics);
-  if (!shape) return false;
-  std::optional<std::string> text = fill(*shape, model, diagnostics);
-  if (text) files.push_back({file, std::move(*text)});
-  return text.has_value();
-}
-
 }  // namespace
 
 std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, const EmissionOptions& options,
@@ -114,16 +105,15 @@ std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, 
   std::vector<OutputFile> files;
   if (options.constant_time && !can_be_timed(compilation, diagnostics)) return std::nullopt;
   const Timing timing = options.constant_time ? Timing::constant : Timing::any;
-  bool ok = append("network.hpp.in", name + ".hpp", header_model(compilation, timing), options, files, diagnostics);
-  if (options.batch)
-    ok &= append("batch.hpp.in", name + "_batch.hpp", batch_model(compilation), options, files, diagnostics);
+  const auto is_appended = [&](const char* shape, const char* ending, const CodeModel& model) {
+    return append_filled(shape, name + ending, model, options, files, diagnostics);
+  };
+  bool ok = is_appended("network.hpp.in", ".hpp", header_model(compilation, timing));
+  if (options.batch) ok &= is_appended("batch.hpp.in", "_batch.hpp", batch_model(compilation));
   if (options.with_test)
-    ok &= append("network_test.cpp.in", name + "_test.cpp", response_test_model(compilation, "std::log1p"), options,
-                 files, diagnostics);
-  if (options.with_library)
-    ok &= append("model_library.cpp.in", name + "_library.cpp", {{{"name", name}}, {}}, options, files, diagnostics);
-  if (options.with_live)
-    ok &= append("live.cpp.in", name + "_live.cpp", live_model(compilation), options, files, diagnostics);
+    ok &= is_appended("network_test.cpp.in", "_test.cpp", response_test_model(compilation, "std::log1p"));
+  if (options.with_library) ok &= is_appended("model_library.cpp.in", "_library.cpp", {{{"name", name}}, {}});
+  if (options.with_live) ok &= is_appended("live.cpp.in", "_live.cpp", live_model(compilation));
   if (!ok) return std::nullopt;
   return files;
 }

@@ -98,13 +98,11 @@ CodeModel device_model(const Device& device, DeviceLanguage language) {
 
 std::optional<std::string> emit_device(const Device& device, DeviceLanguage language, Diagnostics& diagnostics) {
   const char* shape = language == DeviceLanguage::cpp ? "device.hpp.in" : "device.h.in";
-  const SourceFile* file = find_template(shape, std::nullopt, diagnostics);
-  return file ? fill(*file, device_model(device, language), diagnostics) : std::nullopt;
+  return filled(shape, device_model(device, language), std::nullopt, diagnostics);
 }
 
 std::optional<std::string> emit_arm_device(const AxesDevice& device, Diagnostics& diagnostics) {
-  const SourceFile* file = find_template("arm_device.hpp.in", std::nullopt, diagnostics);
-  return file ? fill(*file, arm_device_model(device), diagnostics) : std::nullopt;
+  return filled("arm_device.hpp.in", arm_device_model(device), std::nullopt, diagnostics);
 }
 
 }  // namespace dashpot::compiler

@@ -128,11 +128,11 @@ std::optional<std::vector<OutputFile>> emit_hal(const Compilation& compilation, 
                                                 Diagnostics& diagnostics) {
   if (!has_names_of_hal(compilation, diagnostics)) return std::nullopt;
   std::optional<std::string> source = c99_source(compilation, options, diagnostics);
-  const SourceFile* shape = find_template("hal.comp.in", options.templates, diagnostics);
-  if (!source || shape == nullptr) return std::nullopt;
-  std::optional<std::string> text = fill(*shape, component_model(compilation, std::move(*source)), diagnostics);
-  if (!text) return std::nullopt;
-  return std::vector<OutputFile>{{compilation.network.name + ".comp", std::move(*text)}};
+  std::vector<OutputFile> files;
+  if (!source || !append_filled("hal.comp.in", compilation.network.name + ".comp",
+                                component_model(compilation, std::move(*source)), options, files, diagnostics))
+    return std::nullopt;
+  return files;
 }
 
 }  // namespace dashpot::compiler

@@ -151,12 +151,6 @@ std::string documentation(const Compilation& c) {
       xml_text(file["title"]), text);
 }
 
-std::optional<std::string> filled(const std::string& name, const CodeModel& model, const EmissionOptions& options,
-                                  Diagnostics& diagnostics) {
-  const SourceFile* shape = find_template(name, options.templates, diagnostics);
-  return shape == nullptr ? std::nullopt : fill(*shape, model, diagnostics);
-}
-
 }  // namespace
 
 std::optional<FmiUnit> fmi_unit(const Compilation& c, FmiVersion version, const EmissionOptions& options,
@@ -166,12 +160,12 @@ std::optional<FmiUnit> fmi_unit(const Compilation& c, FmiVersion version, const 
   if (!law) return std::nullopt;
   const std::string prefix = fmt::format("fmi{}", int(version));
   const std::string token = fmt::format("{{{}-{}-{}}}", prefix, c.network.name, digest_of(*law));
-  std::optional<std::string> core = filled("fmi_core.c.in", core_model(c, token), options, diagnostics);
+  std::optional<std::string> core = filled("fmi_core.c.in", core_model(c, token), options.templates, diagnostics);
   if (!core) return std::nullopt;
-  std::optional<std::string> source =
-      filled(prefix + ".c.in", source_model(c, version, std::move(*law), std::move(*core)), options, diagnostics);
+  std::optional<std::string> source = filled(
+      prefix + ".c.in", source_model(c, version, std::move(*law), std::move(*core)), options.templates, diagnostics);
   std::optional<std::string> description =
-      filled(prefix + ".xml.in", description_model(c, token), options, diagnostics);
+      filled(prefix + ".xml.in", description_model(c, token), options.templates, diagnostics);
   if (!source || !description) return std::nullopt;
   return FmiUnit{std::move(*description), std::move(*source), documentation(c)};
 }

@@ -141,4 +141,17 @@ std::optional<std::string> fill(const SourceFile& text, const CodeModel& model, 
   return Filling(text, model, diagnostics).run();
 }
 
+std::optional<std::string> filled(const std::string& name, const CodeModel& model,
+                                  const std::optional<std::string>& directory, Diagnostics& diagnostics) {
+  const SourceFile* shape = find_template(name, directory, diagnostics);
+  return shape ? fill(*shape, model, diagnostics) : std::nullopt;
+}
+
+bool append_filled(const std::string& name, std::string file, const CodeModel& model, const EmissionOptions& options,
+                   std::vector<OutputFile>& files, Diagnostics& diagnostics) {
+  std::optional<std::string> text = filled(name, model, options.templates, diagnostics);
+  if (text) files.push_back({std::move(file), std::move(*text)});
+  return text.has_value();
+}
+
 }  // namespace dashpot::compiler

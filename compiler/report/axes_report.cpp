@@ -297,8 +297,7 @@ std::optional<std::string> report(const AxesCompilation& c, const std::optional<
     model.lists["shares"].push_back({{"table", shares_html(c, all)}, {"figures", figures}});
   }
   add_drag_part(c, module, model, diagnostics);
-  const SourceFile* shape = find_template("axes_report.html.in", std::nullopt, diagnostics);
-  return shape ? fill(*shape, model, diagnostics) : std::nullopt;
+  return filled("axes_report.html.in", model, std::nullopt, diagnostics);
 }
 
 }  // namespace dashpot::compiler

@@ -285,8 +285,7 @@ std::optional<std::string> report(const Compilation& c, const std::optional<std:
   add_live_part(c, module.has_value(), amplitude, model);
   fields["data"] = data_json(c, module);
   add_page(model, diagnostics);
-  const SourceFile* shape = find_template("report.html.in", std::nullopt, diagnostics);
-  return shape ? fill(*shape, model, diagnostics) : std::nullopt;
+  return filled("report.html.in", model, std::nullopt, diagnostics);
 }
 
 }  // namespace dashpot::compiler

@@ -195,6 +195,13 @@ std::string string_text(const std::string& text) {
   return result;
 }
 
+std::vector<std::string> comment_lines(const std::vector<std::string>& facts) {
+  std::vector<std::string> lines;
+  for (const std::string& fact : facts)
+    for (const std::string& line : wrapped_text(fact, 112, 2)) lines.push_back(comment_text(line));
+  return lines;
+}
+
 std::vector<Fields> as_list(const std::vector<std::string>& lines) {
   std::vector<Fields> list;
   for (const std::string& line : lines) list.push_back({{"line", line}});
@@ -234,10 +241,7 @@ std::vector<std::string> banner(const Compilation& c, const UpdateLaw& law, Timi
     facts.push_back(fmt::format("rounding: {}the force of a mode is off by at most {:.2g} of its peak",
                                 form_text(c.law.mode_form), c.law.relative_error_bound));
   facts.push_back(words_in(facts));
-  std::vector<std::string> lines;
-  for (const std::string& fact : facts)
-    for (const std::string& line : wrapped_text(fact, 112, 2)) lines.push_back(comment_text(line));
-  return lines;
+  return comment_lines(facts);
 }
 
 void describe_device(const Compilation& c, Fields& fields) {
@@ -250,17 +254,24 @@ void describe_device(const Compilation& c, Fields& fields) {
   fields["loop_delay"] = std::to_string(c.device ? c.device->description.loop.delay_samples : 0u);
 }
 
-void describe_file(const Compilation& c, Fields& fields) {
-  fields["title"] = comment_text(c.network.title.empty() ? c.network.name : c.network.title);
+void describe_law(const UpdateLaw& law, motion port_motion, Fields& fields) {
+  const PortUnits units = port_units(port_motion);
   fields["version"] = DASHPOT_VERSION;
-  fields["digest"] = c.network.digest;
-  fields["name"] = c.network.name;
-  fields["scalar"] = name_of(c.law.scalar);
-  fields["sample_period"] = cpp_literal(c.law.sample_period, c.law.scalar);
-  fields["motion"] = name_of(c.network.port_motion);
-  const PortUnits units = port_units(c.network.port_motion);
+  fields["scalar"] = name_of(law.scalar);
+  fields["sample_period"] = cpp_literal(law.sample_period, law.scalar);
   fields["position_unit"] = fmt::format("[{}]", units.position);
   fields["velocity_unit"] = fmt::format("[{}]", units.velocity);
+}
+
+void describe_file(const Compilation& c, Fields& fields) {
+  describe_law(c.law, c.network.port_motion, fields);
+  fields["title"] = comment_text(c.network.title.empty() ? c.network.name : c.network.title);
+  fields["digest"] = c.network.digest;
+  fields["name"] = c.network.name;
+  fields["motion"] = name_of(c.network.port_motion);
+  fields["energy_contract"] =
+      c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
+                    : "In the springs after the last update() [J].";
 }
 
 }  // namespace dashpot::compiler

@@ -22,6 +22,9 @@ std::vector<Fields> as_list(const std::vector<std::string>& lines);
 // "33 % of the brake, …"
 std::string to_text(const DeviceShare& share);
 
+// Facts, one behind the other, as lines of a comment.
+std::vector<std::string> comment_lines(const std::vector<std::string>& facts);
+
 // Lines of a comment: where the network comes from, its law, what is proved, and what a step costs.
 std::vector<std::string> banner(const Compilation& compilation, const UpdateLaw& law, Timing timing);
 
@@ -30,5 +33,8 @@ void describe_device(const Compilation& compilation, Fields& fields);
 
 // Those that name the network, its units and numbers.
 void describe_file(const Compilation& compilation, Fields& fields);
+
+// Of these what does not name the network: version, units and numbers of a law of any number of axes.
+void describe_law(const UpdateLaw& law, motion port_motion, Fields& fields);
 
 }  // namespace dashpot::compiler

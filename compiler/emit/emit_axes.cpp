@@ -16,7 +16,6 @@
 #include "lower/term_writer.hpp"
 #include "network/port_units.hpp"
 #include "source/counted.hpp"
-#include "source/wrapped_text.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -76,10 +75,7 @@ std::vector<std::string> banner(const AxesCompilation& c) {
   facts.push_back(joint_cost_line("output()", cost_of(c.law, c.law.output)));
   facts.push_back(joint_cost_line("update()", cost_of(c.law, c.law.update)));
   facts.push_back(words_of_ports);
-  std::vector<std::string> lines;
-  for (const std::string& fact : facts)
-    for (const std::string& line : wrapped_text(fact, 112, 2)) lines.push_back(comment_text(line));
-  return lines;
+  return comment_lines(facts);
 }
 
 std::string list_of(const std::vector<std::string>& values) {
@@ -89,20 +85,15 @@ std::string list_of(const std::vector<std::string>& values) {
 }
 
 void describe(const AxesCompilation& c, Fields& fields) {
-  const PortUnits units = dotted_units(c.device.joint_motion());
   std::vector<std::string> added, estimators;
   for (const double damping : c.certificate.added) added.push_back(cpp_literal(damping, c.law.scalar));
   for (const device_description& joint : c.device.joints)
     estimators.push_back(c.has_device ? fmt::format("\"{}\"", name_of(joint.velocity.estimator)) : "\"exact\"");
+  describe_law(c.law, c.device.joint_motion(), fields);
   fields["title"] = comment_text(c.network.title.empty() ? c.network.name : c.network.title);
-  fields["version"] = DASHPOT_VERSION;
   fields["digest"] = c.network.digest;
   fields["name"] = c.network.name;
-  fields["scalar"] = name_of(c.law.scalar);
-  fields["sample_period"] = cpp_literal(c.law.sample_period, c.law.scalar);
-  fields["position_unit"] = fmt::format("[{}]", units.position);
-  fields["velocity_unit"] = fmt::format("[{}]", units.velocity);
-  fields["damping_unit"] = fmt::format("[{}]", units.damping);
+  fields["damping_unit"] = fmt::format("[{}]", dotted_units(c.device.joint_motion()).damping);
   fields["brakes"] = std::to_string(c.device.brakes.size());
   fields["added_damping"] = list_of(added);
   fields["device"] = string_text(c.device.name);

@@ -132,9 +132,6 @@ CodeModel c_header_model(const Compilation& c) {
   model.fields.erase("motion");
   model.fields["is_certified"] = c.certificate.certified ? "1" : "0";
   model.fields["is_rotation"] = c.network.port_motion == motion::rotation ? "1" : "0";
-  model.fields["energy_contract"] =
-      c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
-                    : "In the springs after the last update() [J].";
   model.lists["command"] = as_list(c99_command_header());
   add_program(program, model);
   model.lists["parameters"] = as_list(parameter_lines(c.law, name));

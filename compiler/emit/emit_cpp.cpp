@@ -25,9 +25,6 @@ CodeModel header_model(const Compilation& c, Timing timing) {
   describe_device(c, fields);
   add_program(program, model);
   model.lists["banner"] = as_list(banner(c, law, timing));
-  fields["energy_contract"] =
-      c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
-                    : "In the springs after the last update() [J].";
   return model;
 }
 

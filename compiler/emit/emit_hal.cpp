@@ -99,14 +99,13 @@ CodeModel component_model(const Compilation& c, std::string source) {
   const PortUnits units = port_units(c.network.port_motion);
   Fields file;
   describe_file(c, file);
-  for (const char* field : {"name", "version", "digest", "scalar"}) fields[field] = file[field];
+  describe_device(c, file);
+  for (const char* field : {"name", "version", "digest", "scalar", "estimator", "position_unit", "velocity_unit"})
+    fields[field] = file[field];
   fields["title"] = in_quotes(file["title"]);
   fields["hal_name"] = hal_name(c.network.name);
   fields["law"] = c99_name(c);
   fields["period"] = std::to_string(std::llround(1e9 / c.rate));
-  fields["estimator"] = c.device ? name_of(c.device->description.velocity.estimator) : "exact";
-  fields["position_unit"] = fmt::format("[{}]", units.position);
-  fields["velocity_unit"] = fmt::format("[{}]", units.velocity);
   fields["force_unit"] = fmt::format("[{}]", units.force);
   fields["damping_unit"] = fmt::format("[{}]", units.damping);
   fields["safe_damping"] = cpp_literal(c.device ? c.device->description.brake.safe_damping : 0, ScalarType::float64);

@@ -116,6 +116,7 @@ CodeModel description_model(const Compilation& c, const std::string& token) {
   CodeModel model;
   Fields file;
   describe_file(c, file);
+  describe_device(c, file);
   const PortUnits units = port_units(c.network.port_motion);
   model.fields = {{"name", c.network.name},
                   {"title", xml_text(file["title"])},
@@ -127,7 +128,7 @@ CodeModel description_model(const Compilation& c, const std::string& token) {
                   {"velocity_unit", units.velocity},
                   {"damping_unit", units.damping},
                   {"force_unit", units.force},
-                  {"estimator", c.device ? std::string(name_of(c.device->description.velocity.estimator)) : "exact"}};
+                  {"estimator", file["estimator"]}};
   std::vector<std::string> names = {"s", units.position, units.velocity, units.damping, units.force};
   model.lists["tunables"];
   for (Fields tunable : tunable_fields(c)) {

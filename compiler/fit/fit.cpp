@@ -97,20 +97,20 @@ class Fitter {
 
   // Puts the surface where the network leaves it; whether it has moved.
   bool follow_surface(const Model& model) {
-    if (!fit_.choices.contact || fit_.choices.form != Form::stiffness) return false;
     bool has_moved = false;
-    for (Recording& recording : recordings_) has_moved |= follow_surface(recording, model, whole_);
+    for (Recording& recording : recordings_) has_moved |= follow_surface(recording, model);
     if (has_moved) stack();
     return has_moved;
   }
 
-  static bool follow_surface(Recording& recording, const Model& model, const Problem& problem) {
+  bool follow_surface(Recording& recording, const Model& model) const {
     constexpr double same = 1e-10;  // of the reach
-    std::vector<double> surface = surface_under(recording, model.terms, model.weights, problem.band(), model.curve);
-    const std::vector<double>& before = recording.surface.empty() ? recording.position : recording.surface;
+    if (!fit_.choices.contact || fit_.choices.form != Form::stiffness) return false;
+    std::vector<double> surface = surface_under(recording, model.terms, model.weights, whole_.band(), model.curve);
+    const std::vector<double>& before = recording.pushed();
     bool has_moved = false;
     for (std::size_t i = 0; i < surface.size(); ++i)
-      has_moved |= std::abs(surface[i] - before[i]) > same * problem.largest_reach();
+      has_moved |= std::abs(surface[i] - before[i]) > same * whole_.largest_reach();
     if (has_moved) recording.surface = std::move(surface);
     return has_moved;
   }
@@ -348,7 +348,7 @@ class Fitter {
 
   FileScore score_held_out(const Recording& recording, const Model& written) const {
     std::vector<Recording> alone{recording};
-    if (fit_.choices.contact && fit_.choices.form == Form::stiffness) follow_surface(alone[0], written, whole_);
+    follow_surface(alone[0], written);
     const Problem problem(alone, fit_.choices.form, fit_.choices.weighting, every_row);
     Model network = written;
     network.gains = {1.0};

@@ -33,6 +33,8 @@ struct Recording {
   std::vector<double> surface;    // where a tool leaves the tissue: of that, from rest [m]; else empty, the position
 
   std::size_t measured_rows() const { return time.size() - assumed_rows; }
+  // How far the tissue is pushed in each row.
+  const std::vector<double>& pushed() const { return surface.empty() ? position : surface; }
   // Of a tool that has left the tissue: there its force tells nothing of it.
   bool is_free(std::size_t row) const { return !surface.empty() && surface[row] != position[row]; }
   std::size_t free_rows() const;

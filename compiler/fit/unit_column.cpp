@@ -409,8 +409,7 @@ Signal signal_of(const Recording& recording, std::size_t file, Form form, const 
   Signal signal{&recording, file, {}, {}, {}, {}, band, form};
   if (recording.kind != RecordingKind::motion) return signal;
   signal.steps = steps_of(recording.time);
-  const std::vector<double>& pushed = recording.surface.empty() ? recording.position : recording.surface;
-  signal.drive = form == Form::stiffness ? pushed : recording.force;
+  signal.drive = form == Form::stiffness ? recording.pushed() : recording.force;
   if (curve) put_behind(signal, *curve);
   signal.change.assign(signal.drive.size(), 0.0);
   for (std::size_t i = 1; i < signal.drive.size(); ++i) signal.change[i] = signal.drive[i] - signal.drive[i - 1];

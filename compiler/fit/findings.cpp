@@ -275,10 +275,7 @@ std::optional<double> noise_of(const Problem& problem) {
 double force_delay(const Recording& recording) {
   // Of longer recordings the search would take longer than the fit.
   if (recording.measured_rows() < 30 || recording.measured_rows() > 50'000) return 0;
-  const std::vector<double> steps = steps_of(recording.time);
-  std::vector<double> sorted(steps.begin() + 1, steps.end());
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double step = sorted[sorted.size() / 2];
+  const double step = usual_step(steps_of(recording.time));
   const double as_it_is = coarse_floor(recording);
   double least = as_it_is, found = 0;
   for (const double rows : {1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0, 32.0}) {

@@ -42,6 +42,7 @@ struct Recording {
 
 // From row to row [s]; the first is 0. Periods that differ by no more than the rounding of the times are made equal.
 std::vector<double> steps_of(const std::vector<double>& time);
+double usual_step(const std::vector<double>& steps);  // their median but for the first
 
 // Whether position and force are those of a step or a spectrum, so that no history is integrated.
 inline bool is_response(const Recording& recording) { return recording.kind != RecordingKind::motion; }

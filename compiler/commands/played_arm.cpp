@@ -191,14 +191,9 @@ class ArmPlayer : public Player {
     if (played.time < 0) return std::nullopt;
     const simulated::arm_view after = device_.truth_from_now_on();
     for (unsigned j = 0; j < arm_axes; ++j) played.felt_force[j] = (felt(before, j) + felt(after, j)) / 2;
-    const simulated::energy_ledger& ledger = device_.ledger();
-    if (!taken_before_) taken_before_ = ledger.brake - ledger.motor;
-    energy_ = ledger.brake - ledger.motor - *taken_before_;
+    look_at(device_.ledger());
     return played;
   }
-
-  double stored_at_start() const override { return stored_at_start_; }
-  double energy() const override { return energy_; }
 
  private:
   void drive(const JointCommand<Scalar>& wanted, PlayedSample& played) {
@@ -226,8 +221,6 @@ class ArmPlayer : public Player {
   std::vector<any_estimator<double>> estimators_;
   std::vector<actuator<double>> motors_, brakes_;
   Evaluation<Scalar> law_;
-  std::optional<double> taken_before_;
-  double stored_at_start_ = 0, energy_ = 0;
 };
 
 // False, reported, where the arm cannot follow.

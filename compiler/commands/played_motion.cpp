@@ -65,9 +65,7 @@ class DevicePlayer : public Player {
         actuator_.drive({double(wanted.damping), double(wanted.force)}, double(velocity));
     device_.write(driven.demand());
     if (time < 0) return std::nullopt;
-    const simulated::energy_ledger& ledger = device_.ledger();
-    if (!taken_before_) taken_before_ = ledger.brake - ledger.motor;
-    energy_ = ledger.brake - ledger.motor - *taken_before_;
+    look_at(device_.ledger());
     const auto felt = [&](const simulated::plant_view& view) {
       return gear.tool_force(view.brake_damping * view.velocity - view.motor_torque);
     };
@@ -81,11 +79,6 @@ class DevicePlayer : public Player {
     played.is_limited = driven.motor_saturated() || law_.kept_share() < 1;
     return played;
   }
-
-  double stored_at_start() const override {
-    return stored_at_start_;
-  }                                                   // by the network, held at its first position [J]
-  double energy() const override { return energy_; }  // taken from the tool since the motion began [J]
 
  private:
   simulated::scenario scene(motion network, std::uint64_t seed) const {
@@ -107,8 +100,6 @@ class DevicePlayer : public Player {
   any_estimator<double> estimator_;
   actuator<double> actuator_;
   Evaluation<Scalar> law_;
-  std::optional<double> taken_before_;
-  double stored_at_start_ = 0, energy_ = 0;
 };
 
 // Root mean squares are summed up as mean squares.
@@ -163,6 +154,12 @@ nlohmann::ordered_json json_of_share(double part, double whole) {
 }
 
 }  // namespace
+
+void Player::look_at(const simulated::energy_ledger& ledger) {
+  const double taken = ledger.brake - ledger.motor;
+  if (!taken_before_) taken_before_ = taken;
+  energy_ = taken - *taken_before_;
+}
 
 bool has_speeds(const RecordedPath& path, Diagnostics& diagnostics) {
   const std::optional<std::size_t> row = path.first_beyond(std::numeric_limits<double>::max());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <dashpot/simulated/energy_ledger.hpp>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -55,8 +56,18 @@ class Player {
 
   // Nothing before the motion begins. What the network opposes is left to the caller.
   virtual std::optional<PlayedSample> next() = 0;
-  virtual double stored_at_start() const = 0;  // by the network, held at its first position [J]
-  virtual double energy() const = 0;           // taken from the tool since the motion began [J]
+  double stored_at_start() const { return stored_at_start_; }  // by the network, held at its first position [J]
+  double energy() const { return energy_; }                    // taken from the tool since the motion began [J]
+
+ protected:
+  // At every sample of the motion.
+  void look_at(const simulated::energy_ledger& ledger);
+
+  double stored_at_start_ = 0;
+
+ private:
+  std::optional<double> taken_before_;
+  double energy_ = 0;
 };
 
 // False, reported, where the tool or a joint would go from one row to the next at a speed beyond all numbers.

@@ -76,7 +76,7 @@ class TextsVerification {
       return 0;
     }
     // What takes long is done last: many a wrong certificate is found out before.
-    const bool is_linear = is_plainly_linear(*network_);
+    const bool is_linear = !beyond_linear(*network_);
     std::size_t count =
         is_linear ? verify_linear_constants(certificate_, *network_, *port_, *constants, diagnostics_) : 0;
     if (!recompile()) return 0;

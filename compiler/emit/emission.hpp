@@ -41,15 +41,7 @@ struct Compilation {
     return form.is_all_behind_slips() && decomposition.choice().damping == 0 && !decomposition.slips.all().empty();
   }
 
-  // The first of what there is beside constant springs and dampers, for people; nullptr where the network is linear.
-  const char* beyond_linear() const {
-    return has_tunables(network)  ? "tunable parameters"
-           : !ports.empty()       ? "several ports"
-           : form.has_slips()     ? "slips"
-           : network.contact      ? "a contact"
-           : network.static_curve ? "a static curve"
-                                  : nullptr;
-  }
+  const char* beyond_linear() const { return compiler::beyond_linear(network); }
 };
 
 struct EmissionOptions {

@@ -64,6 +64,16 @@ bool has_slips(const Network& network) {
                      [](const Element& element) { return is_slip(element.law); });
 }
 
+const char* beyond_linear(const Network& network) {
+  const auto gives_way = [](const Element& element) { return element.has_effect && is_slip(element.law); };
+  return has_tunables(network)                                                      ? "tunable parameters"
+         : !network.ports.empty()                                                   ? "several ports"
+         : std::any_of(network.elements.begin(), network.elements.end(), gives_way) ? "slips"
+         : network.contact                                                          ? "a contact"
+         : network.static_curve                                                     ? "a static curve"
+                                                                                    : nullptr;
+}
+
 std::string to_text(const Network& network) {
   std::string out;
   append_header(out, network);

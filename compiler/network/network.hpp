@@ -117,6 +117,9 @@ std::optional<Network> build_network(const NetworkDecl& decl, Diagnostics& diagn
 bool has_tunables(const Network& network);
 bool has_slips(const Network& network);
 
+// The first of what has an effect beside constant springs and dampers, for people; nullptr where the network is linear.
+const char* beyond_linear(const Network& network);
+
 std::string to_text(const Network& network);
 std::string to_text(const Springpot& springpot, motion port_motion);
 std::string to_text(const StaticCurve& curve, motion port_motion);

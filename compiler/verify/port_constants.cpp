@@ -22,7 +22,7 @@ void recompute_port(const VerifiedPort& port, ScalarType scalar, Diagnostics& di
   certificate.damping = compiled.decomposition.choice().damping;
   const HeaderConstants header{scalar, port.constants};
   for (const HeaderConstant& constant : header.all) certificate.constants[constant.name] = constant.values;
-  if (is_plainly_linear(compiled.network))
+  if (!compiled.beyond_linear())
     verify_linear_constants(certificate, compiled.network, compiled.port, header, diagnostics);
   else verify_constants(certificate, compiled.port, header, compiled, diagnostics);
 }

@@ -206,12 +206,6 @@ void recompute_ports(const CertificateFile& certificate, const HeaderConstants& 
 
 }  // namespace
 
-bool is_plainly_linear(const Network& network) {
-  const auto gives_way = [](const Element& e) { return e.has_effect && is_slip(e.law); };
-  return network.ports.empty() && !network.contact && !network.static_curve && !has_tunables(network) &&
-         std::none_of(network.elements.begin(), network.elements.end(), gives_way);
-}
-
 void compare_constants(const std::map<std::string, std::vector<double>>& stated, const HeaderConstants& header,
                        Diagnostics& diagnostics) {
   std::map<std::string, std::vector<double>> found;
@@ -244,7 +238,7 @@ std::size_t verify_constants(const CertificateFile& certificate, const PortDevic
 
 void verify_bounds(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
                    const Compilation& compiled, Diagnostics& diagnostics) {
-  if (is_plainly_linear(compiled.network)) Verification(certificate, header, diagnostics).recompute_bounds(device);
+  if (!compiled.beyond_linear()) Verification(certificate, header, diagnostics).recompute_bounds(device);
   else if (!compiled.ports.empty()) compare_sum(certificate, compiled, header.scalar, diagnostics);
   else if (compiled.network.map)
     compare_with_recompiled(certificate, compiled, std::nullopt, header.scalar, diagnostics);

@@ -9,9 +9,6 @@ namespace dashpot::compiler {
 // Inner nodes of a part, at most: 100 digits take minutes for more.
 inline constexpr std::size_t most_verified_nodes = 200;
 
-// Springs and dampers alone, without tunable parameters.
-bool is_plainly_linear(const Network& network);
-
 // Reports every constant that only a certificate or only the header has, or that differs.
 void compare_constants(const std::map<std::string, std::vector<double>>& stated, const HeaderConstants& header,
                        Diagnostics& diagnostics);
@@ -19,7 +16,7 @@ void compare_constants(const std::map<std::string, std::vector<double>>& stated,
 // In: a certificate, the network in it, the device in it, and the text of a header. Recomputes every constant from the
 // network in 100 digits by code of its own and requires the nearest number. Reports every disagreement. Out: how many
 // constants were checked. The code around the constants is compared by its callers, who can compile the network again.
-// Requires a plainly linear network with parts no larger than that.
+// Requires a linear network with parts no larger than that.
 std::size_t verify_linear_constants(const CertificateFile& certificate, const Network& network,
                                     const PortDevice& device, const HeaderConstants& header, Diagnostics& diagnostics);
 

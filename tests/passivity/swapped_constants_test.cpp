@@ -139,7 +139,7 @@ TEST(SwappedConstants, AreFoundInLawsWithSlips) {
     Choices choices = drawn_choices(random);
     choices.decomposition = random.chance(0.5) ? "velocity-free" : "virtual";
     Mixed law(network, choices);
-    if (!law.compiles() || is_plainly_linear(random_network(seed + 70000, recipe))) continue;
+    if (!law.compiles() || !beyond_linear(random_network(seed + 70000, recipe))) continue;
     swapped += swaps_found(law, random, 4, network);
   }
   EXPECT_GE(swapped, int(cases * 3 / 2));

@@ -108,8 +108,8 @@ std::vector<bool> on_path_between_ends(const Network& network, const std::vector
 std::vector<bool> may_carry_force(const Network& network) {
   std::vector<bool> may_carry;
   for (const Element& element : network.elements) {
-    const Parameter* parameter = element.parameter ? &network.parameters[*element.parameter] : nullptr;
-    const bool may_grow = parameter != nullptr && parameter->tunable && parameter->max > 0 && element.share > 0;
+    const Parameter* tunable = network.tunable_of(element);
+    const bool may_grow = tunable != nullptr && tunable->max > 0 && element.share > 0;
     may_carry.push_back(value_of(element.law) > 0 || may_grow);
   }
   return may_carry;

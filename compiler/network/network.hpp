@@ -98,6 +98,12 @@ struct Network {
   std::string digest;  // of the file's bytes
   Span name_span;
 
+  // The parameter that an element's value is, or is a share of; nullptr where it never changes while the law runs.
+  const Parameter* tunable_of(const Element& element) const {
+    const Parameter* parameter = element.parameter ? &parameters[*element.parameter] : nullptr;
+    return parameter != nullptr && parameter->tunable ? parameter : nullptr;
+  }
+
   // Where the unloaded surface lies, and how far beyond it a position is; without a contact 0, and the position itself
   // [m] or [rad].
   double surface() const { return contact ? contact->at : 0; }

@@ -252,10 +252,8 @@ class GraphBuilder {
 };
 
 Network at_largest(Network network) {
-  for (Element& e : network.elements) {
-    if (!e.parameter || !network.parameters[*e.parameter].tunable) continue;
-    e.law = with_value(e.law, e.share * network.parameters[*e.parameter].max);
-  }
+  for (Element& e : network.elements)
+    if (const Parameter* tunable = network.tunable_of(e)) e.law = with_value(e.law, e.share * tunable->max);
   return network;
 }
 

@@ -113,7 +113,7 @@ std::optional<ReferenceSum> TunableEquations::number(const NumberSubject& of) co
       ReferenceSum sum{0, {}, of.elements};
       for (const std::size_t i : of.elements) {
         const Element& e = network_.elements[i];
-        if (!e.parameter || !network_.parameters[*e.parameter].tunable) sum.base += Reference(value_of(e.law));
+        if (network_.tunable_of(e) == nullptr) sum.base += Reference(value_of(e.law));
       }
       return sum;
     }
@@ -129,8 +129,7 @@ std::optional<Reference> TunableEquations::element_value(const OfNumber& of) con
   const TunableTerm& term = written.terms[*of.term];
   const Element& element = network_.elements[term.element];
   const bool is_in = std::find(sum->elements.begin(), sum->elements.end(), term.element) != sum->elements.end();
-  if (!is_in || !element.parameter || tunables_.parameters[term.tunable] != &network_.parameters[*element.parameter])
-    return std::nullopt;
+  if (!is_in || network_.tunable_of(element) != tunables_.parameters[term.tunable]) return std::nullopt;
   return Reference(element.share);
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <nlohmann/json.hpp>
 
 #include "network/decimal.hpp"
 #include "source/excerpt.hpp"
@@ -20,13 +19,9 @@ struct Change {
   std::string text, words;
 };
 
-std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 // A plain number is one in SI; all else is read as a value in quotes is.
 std::string value_text(const std::string& value) {
-  return !value.empty() && value[0] != '+' && decimal_length(value) == value.size() ? value : quoted(value);
+  return !value.empty() && value[0] != '+' && decimal_length(value) == value.size() ? value : json_string(value);
 }
 
 // By its first line, which has columns and nothing that JSON starts with.
@@ -55,9 +50,10 @@ class NetworkChanger {
   }
 
   void rename(const std::string& name) {
-    const std::string words = "--name " + quoted(name);
-    if (const JsonMember* member = find_member(root_, "name")) replace(member->value.span, quoted(name), words);
-    else changes_.push_back({root_.span.begin + 1, root_.span.begin + 1, " \"name\": " + quoted(name) + ",", words});
+    const std::string words = "--name " + json_string(name);
+    if (const JsonMember* member = find_member(root_, "name")) replace(member->value.span, json_string(name), words);
+    else
+      changes_.push_back({root_.span.begin + 1, root_.span.begin + 1, " \"name\": " + json_string(name) + ",", words});
   }
 
   void set(const std::string& words) {

@@ -2,20 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "network/law.hpp"
+#include "syntax/json.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
-std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
-
 std::string file_text(const NetworkHead& head, const std::string& network) {
   const char* turns = head.port_motion == motion::rotation ? "  \"motion\": \"rotation\",\n" : "";
   return fmt::format("{{\n  \"dashpot\": 1,\n  \"name\": {},\n  \"source\": {},\n{}  \"network\": {}\n}}\n",
-                     quoted(head.name), quoted(head.source), turns, network);
+                     json_string(head.name), json_string(head.source), turns, network);
 }
 
 std::string stiffness_unit(motion m) { return unit_of(dimension_of(Spring{}, m)); }

@@ -6,29 +6,26 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "network/port_units.hpp"
 #include "source/counted.hpp"
+#include "syntax/json.hpp"
 
 namespace dashpot::compiler::fitting {
 namespace {
 
 using std::numbers::pi;
 
-std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 std::string range_text(double low, double high, const std::string& unit) {
-  return fmt::format("[{}, {}]", quoted(quantity_text(low, unit, 4)), quoted(quantity_text(high, unit, 4)));
+  return fmt::format("[{}, {}]", json_string(quantity_text(low, unit, 4)), json_string(quantity_text(high, unit, 4)));
 }
 
 // As the file writes numbers: a power bare, all else with its unit.
 std::string range_text(const Interval& interval, const std::string& unit) {
   const auto [low, high] = interval_ends(interval, unit);
-  return unit.empty() ? fmt::format("[{}, {}]", low, high) : fmt::format("[{}, {}]", quoted(low), quoted(high));
+  return unit.empty() ? fmt::format("[{}, {}]", low, high)
+                      : fmt::format("[{}, {}]", json_string(low), json_string(high));
 }
 
 // A bound of three digits, rounded outwards so that it includes what was measured.
@@ -62,7 +59,7 @@ std::string valid_text(const Fit& fit, const Problem& problem) {
   if (problem.recordings().front().kind != RecordingKind::motion) return "{ " + frequency + " }";
   const Covered covered = covered_by(problem.recordings(), fit.choices.contact.value_or(0));
   return fmt::format("{{ \"rate\": {}, \"displacement\": {},\n             {} }}",
-                     quoted(quantity_text(bound(covered.fastest, 1), units.velocity, 4)),
+                     json_string(quantity_text(bound(covered.fastest, 1), units.velocity, 4)),
                      range_text(bound(covered.low, -1), bound(covered.high, 1), units.position), frequency);
 }
 
@@ -71,7 +68,7 @@ std::string recordings_text(const Fit& fit, const Problem& problem) {
   for (const FileScore& file : fit.files) {
     text +=
         fmt::format("      {{ \"file\": {}, \"digest\": \"{}\", \"rows\": {}, \"rms\": \"{}\", \"r_squared\": {:.6g}",
-                    quoted(std::filesystem::path(file.name).filename().string()), file.digest, file.rows,
+                    json_string(std::filesystem::path(file.name).filename().string()), file.digest, file.rows,
                     error_text(file.rms, fit, problem), file.r_squared);
     if (file.free_rows > 0) text += fmt::format(", \"free_rows\": {}", file.free_rows);
     if (file.gain != 1) text += fmt::format(", \"gain\": {:.5g}", file.gain);
@@ -145,10 +142,10 @@ std::string bare_network_text(const Fit& fit) {
 std::string network_text(const Fit& fit, const Problem& problem) {
   const std::size_t count = fit.files.size();
   std::string text = fmt::format("{{\n  \"dashpot\": 1,\n  \"name\": \"{}\",\n", fit.network_name);
-  text +=
-      fmt::format("  \"title\": {},\n",
-                  quoted(fit.choices.title.empty() ? "Fitted to " + counted(count, "recording") : fit.choices.title));
-  text += fmt::format("  \"source\": {},\n", quoted(fit.choices.source));
+  text += fmt::format(
+      "  \"title\": {},\n",
+      json_string(fit.choices.title.empty() ? "Fitted to " + counted(count, "recording") : fit.choices.title));
+  text += fmt::format("  \"source\": {},\n", json_string(fit.choices.source));
   text += fmt::format("  \"motion\": \"{}\",\n", name_of(fit.choices.port_motion));
   text += static_line(fit);
   text += fmt::format("  \"network\": {},\n", tree_text(fit.elements, fit.choices.form));
@@ -156,7 +153,7 @@ std::string network_text(const Fit& fit, const Problem& problem) {
     text += fmt::format("  \"contact\": {{ \"at\": \"{}\" }},\n",
                         place_text(*fit.choices.contact, fit.choices.port_motion));
   text += fmt::format("  \"valid\": {},\n", valid_text(fit, problem));
-  text += fmt::format("  \"fit\": {{\n    \"command\": {},\n", quoted(fit.choices.command));
+  text += fmt::format("  \"fit\": {{\n    \"command\": {},\n", json_string(fit.choices.command));
   text += fmt::format("    \"recordings\": [\n{},\n", recordings_text(fit, problem));
   text += fmt::format("    \"rms\": \"{}\", \"r_squared\": {:.6g}, \"linear_floor\": \"{}\",\n",
                       error_text(fit.rms, fit, problem), fit.r_squared, error_text(fit.floor_rms, fit, problem));

@@ -181,6 +181,10 @@ std::string_view kind_name(JsonValue::Kind kind) {
   return {};
 }
 
+std::string json_string(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 std::optional<JsonValue> parse_json(const SourceFile& file, Diagnostics& diagnostics) {
   JsonBuilder builder(file, diagnostics);
   if (!nlohmann::json::sax_parse(file.text(), &builder) || !builder.reaches_end()) return std::nullopt;

@@ -34,6 +34,9 @@ const JsonMember* find_member(const JsonValue& object, std::string_view key);
 // Of a number, which the parser has seen to fit.
 double number_in(const JsonValue& value);
 
+// A string of JSON, between its quotes; bytes that are no UTF-8 become U+FFFD.
+std::string json_string(const std::string& text);
+
 // "a string", "a list", …
 std::string_view kind_name(JsonValue::Kind kind);
 

@@ -230,18 +230,7 @@ class C99Printer {
     if (!law_.couplings.empty()) append_all(lines, c99_part("slip_tree.h", words));
     if (!law_.networks.empty()) append_all(lines, c99_part("slip_network.h", words));
     each_solved(law_, [&](const auto& slips) { append_tables_if(!is_tuned(slips), slips, lines); });
-    if (law_.tunable) append_ranges(lines);
     return lines;
-  }
-
-  // Of set(), whose parameters are told by their number.
-  void append_ranges(Lines& lines) const {
-    const std::vector<Tunable> parameters = law_.parameters();
-    lines.push_back(fmt::format("static const {0}_range_of_parameter {0}_ranges[{1}] = {{", name_, parameters.size()));
-    for (const Tunable& t : parameters)
-      lines.push_back(
-          fmt::format("    {{{}, {}}},  // {} [{}]", number(t.range.min), number(t.range.max), t.name, t.unit));
-    append_all(lines, {"};", ""});
   }
 
   std::string number_or(double value, VariableId tuned) const {

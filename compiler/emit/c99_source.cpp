@@ -1,7 +1,5 @@
 #include "emit/c99_source.hpp"
 
-#include "emit/cpp_program.hpp"
-
 namespace dashpot::compiler {
 
 std::string c99_name(const Compilation& compilation) { return "law_" + compilation.network.name; }
@@ -14,20 +12,6 @@ std::optional<std::string> c99_source(const Compilation& compilation, const Emis
   const auto files = emit_c99(renamed, options, diagnostics);
   if (!files) return std::nullopt;
   return files->front().text;
-}
-
-std::vector<Fields> tunable_fields(const Compilation& c) {
-  std::vector<Fields> all;
-  for (const Tunable& t : c.law.parameters()) {
-    const auto number = [&](double value) { return cpp_literal(value, ScalarType::float64); };
-    all.push_back({{"tunable", t.name},
-                   {"unit", t.unit},
-                   {"value", number(t.range.value)},
-                   {"min", number(t.range.min)},
-                   {"max", number(t.range.max)},
-                   {"index", std::to_string(all.size())}});
-  }
-  return all;
 }
 
 std::vector<Fields> as_one_entry(std::string text) {

@@ -18,9 +18,6 @@ std::string c99_name(const Compilation& compilation);
 std::optional<std::string> c99_source(const Compilation& compilation, const EmissionOptions& options,
                                       Diagnostics& diagnostics);
 
-// An entry for each tunable: tunable, unit, value, min, max and index.
-std::vector<Fields> tunable_fields(const Compilation& compilation);
-
 // The text without its last end of line, as one entry of a list for a template.
 std::vector<Fields> as_one_entry(std::string text);
 

@@ -9,7 +9,7 @@
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_program.hpp"
 #include "emit/cpp_slips.hpp"
-#include "emit/cpp_tunable.hpp"
+#include "emit/tunable_fields.hpp"
 #include "law/expression_text.hpp"
 #include "law/walk.hpp"
 
@@ -141,17 +141,22 @@ class BatchPrinter {
         lines.push_back(fmt::format("{}scalar {} = state[{} * block];", is_assigned ? "" : "const ", state, number));
       if (is_assigned) stores.push_back(fmt::format("put(state, {}, {});", number, state));
     });
-    if (sets_parameters)
-      for (std::string& line : taken_values(law_)) lines.push_back(std::move(line));
+    if (sets_parameters) append_taken_values(lines);
     for (std::string& line : lines_of(program, Language::cpp)) lines.push_back(std::move(line));
     lines.insert(lines.end(), stores.begin(), stores.end());
     return lines;
   }
 
+  // The parameters become `wanted`, and `clamped` tells which of them could not.
+  void append_taken_values(std::vector<std::string>& lines) const {
+    lines.push_back("unsigned clamped = 0;");
+    for (const Fields& tunable : tunable_fields(law_, law_.scalar))
+      lines.push_back(fmt::format("clamped |= dashpot::take_value(tunables[{0}], wanted.{1}, {2}) << {0};",
+                                  tunable.at("index"), tunable.at("tunable"), tunable.at("scalar_variable")));
+  }
+
   // Every point has parameters of its own, in the storage.
   void append_set(CppBatch& batch) {
-    batch.parameters = parameters_of(law_);
-    batch.parameters.push_back("");
     const std::vector<std::string> begin = {
         "// Every point's parameters are those that are there to begin with.",
         "void begin() noexcept {",
@@ -315,7 +320,6 @@ class BatchPrinter {
     for (CoefficientId read : constants_read(law_))
       append_constant_of_each(law_.coefficients[read], law_.scalar, lines);
     append_constant_tables(law_, lines);
-    append_ranges(law_, lines);
     return lines;
   }
 

@@ -12,7 +12,7 @@ struct CppBatch {
   std::size_t states = 0;                       // scalars that a point keeps from one sample to the next
   std::size_t loaded = 0, stored = 0;           // of those, what a sample reads and what it changes
   std::vector<std::string> headers, constants;  // the constants also hold the initial values of a new object
-  std::vector<std::string> parameters, set;     // of laws whose parameters can be set: of each point by itself
+  std::vector<std::string> set;                 // of laws whose parameters can be set: of each point by itself
   std::vector<std::string> reset;               // of the state of one point
   std::vector<std::string> loads;               // states into locals
   std::vector<std::string> output;

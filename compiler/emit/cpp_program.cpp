@@ -8,7 +8,6 @@
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_slips.hpp"
 #include "emit/cpp_statements.hpp"
-#include "emit/cpp_tunable.hpp"
 #include "law/walk.hpp"
 #include "lower/fuse_step.hpp"
 
@@ -49,11 +48,9 @@ class CppPrinter {
     program.energy = statements_.lines_of(law_.energy);
     for (auto* lines : {&program.update, &program.energy}) put_alias_before(*lines);
     put_alias_before(program.output, program.keep);
-    program.parameters = parameters_of(law_);
-    std::vector<std::string> tuning = between_samples_.lines_of(set_program(law_));
-    append_tuning(law_, tuning);
-    program.set = set_of(law_, tuning);
-    if (law_.sheds()) append_kept_share(program.set);
+    program.set = between_samples_.lines_of(set_program(law_));
+    append_tuning(law_, program.set);
+    if (law_.sheds()) program.kept_share = name_of(law_.share);
     program.reset = reset();
     program.constants = constants();
     program.states = states();
@@ -124,13 +121,6 @@ class CppPrinter {
     return {"const dashpot::command<scalar> now = output(position, velocity);", "update();", "return now;"};
   }
 
-  void append_kept_share(std::vector<std::string>& lines) const {
-    lines.push_back("");
-    lines.push_back(
-        "// The share of all forces in the network that the last output() kept, for the motor to be able to follow.");
-    lines.push_back(fmt::format("scalar kept_share() const noexcept {{ return {}; }}", name_of(law_.share)));
-  }
-
   // Nothing is kept of a sample that is not finite: the previous values stay.
   void check_by_masks(CppProgram& program) const {
     program.check = {fmt::format("sampled_ = dashpot::all_finite(position, velocity, {});", name_of(law_.checked())),
@@ -178,7 +168,6 @@ class CppPrinter {
                       literal(law_.flush_threshold)));
     for (CoefficientId read : constants_read(law_)) append_constant(law_.coefficients[read], lines);
     append_constant_tables(law_, lines);
-    append_ranges(law_, lines);
     return lines;
   }
 
@@ -313,8 +302,8 @@ CppProgram cpp_program(const UpdateLaw& law, const Network& network, VectorRegis
 void add_program(const CppProgram& program, CodeModel& model) {
   model.fields["command"] = program.command;
   for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
-  model.lists["parameters"] = as_list(program.parameters);
-  model.lists["set"] = as_list(program.set);
+  model.lists["kept_share"];
+  if (!program.kept_share.empty()) model.lists["kept_share"].push_back({{"share", program.kept_share}});
   model.lists["reset"] = as_list(program.reset);
   model.lists["output"] = as_list(program.output);
   model.lists["check"] = as_list(program.check);

@@ -16,8 +16,8 @@ struct CppProgram {
   std::vector<std::string> functions;  // private helpers that the lines below call
   std::vector<std::string> constants;
   std::vector<std::string> states;
-  std::vector<std::string> parameters;  // the struct of that name
-  std::vector<std::string> set;         // the function of that name, with its contract
+  std::vector<std::string> set;  // behind the parameters' new values
+  std::string kept_share;        // empty where nothing is shed
   std::vector<std::string> reset;
   std::vector<std::string> output;
   std::vector<std::string> check;  // whether the sample is one that can be kept
@@ -36,7 +36,7 @@ enum class Timing { any, constant };
 CppProgram cpp_program(const UpdateLaw& law, const Network& network, VectorRegisters registers,
                        Timing timing = Timing::any);
 
-// All of it, as templates take it, under the names of its members.
+// All of it but `set`, as templates take it, under the names of its members.
 void add_program(const CppProgram& program, CodeModel& model);
 
 // A line for each place of the coefficient; of a table that is picked from, the array.

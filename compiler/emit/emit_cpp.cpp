@@ -11,6 +11,7 @@
 #include "emit/response_test.hpp"
 #include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
+#include "emit/tunable_fields.hpp"
 #include "lower/apart_from.hpp"
 
 namespace dashpot::compiler {
@@ -24,6 +25,8 @@ CodeModel header_model(const Compilation& c, Timing timing) {
   describe_file(c, fields);
   describe_device(c, fields);
   add_program(program, model);
+  add_tunables(law, model);
+  model.lists["set"] = as_list(program.set);
   model.lists["banner"] = as_list(banner(c, law, timing));
   return model;
 }
@@ -59,14 +62,15 @@ CodeModel batch_model(const Compilation& c) {
   describe_file(c, model.fields);
   describe_outputs(law, model);
   model.fields["checked"] = law.variables[law.checked()].name;
-  model.fields["begins"] = law.tunable ? "begin(); " : "";
+  model.fields["begins"] = batch.set.empty() ? "" : "begin(); ";
   model.fields["states"] = std::to_string(batch.states);
   model.fields["reads"] = std::to_string(batch.loaded + 2);
   model.fields["writes"] = std::to_string(batch.stored + (law.brake_changes() ? 2 : 1));
   model.fields["energy_contract"] = "In the springs of the point [J].";
   for (const std::string& header : batch.headers) model.lists["headers"].push_back({{"header", header}});
   model.lists["banner"] = as_list(banner(c, law, Timing::any));
-  model.lists["parameters"] = as_list(batch.parameters);
+  add_tunables(law, model);
+  model.lists.erase("no_tunable");
   model.lists["set"] = as_list(batch.set);
   model.lists["constants"] = as_list(batch.constants);
   model.lists["reset"] = as_list(batch.reset);

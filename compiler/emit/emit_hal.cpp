@@ -10,6 +10,7 @@
 #include "emit/cpp_program.hpp"
 #include "emit/emission.hpp"
 #include "emit/template_text.hpp"
+#include "emit/tunable_fields.hpp"
 #include "network/port_units.hpp"
 
 namespace dashpot::compiler {
@@ -113,7 +114,7 @@ CodeModel component_model(const Compilation& c, std::string source) {
   for (const std::string& line : banner(c, c.law, Timing::any))
     notes += (notes.empty() ? "" : line.starts_with(' ') ? "\n" : "\n.br\n") + in_quotes(line);
   fields["notes"] = notes;
-  model.lists["tunables"] = tunable_fields(c);
+  model.lists["tunables"] = tunable_fields(c.law, ScalarType::float64);
   const std::size_t count = model.lists["tunables"].size();
   model.lists["any_tunable"];
   if (count > 0) model.lists["any_tunable"].push_back({{"count", std::to_string(count)}});

@@ -12,6 +12,7 @@
 #include "emit/cpp_program.hpp"
 #include "emit/fmi_functions.hpp"
 #include "emit/template_text.hpp"
+#include "emit/tunable_fields.hpp"
 #include "law/evaluate.hpp"
 #include "network/port_units.hpp"
 #include "network/unit.hpp"
@@ -83,7 +84,7 @@ std::string period_text(const Compilation& c) { return cpp_literal(1 / c.rate, S
 
 CodeModel core_model(const Compilation& c, const std::string& token) {
   CodeModel model;
-  const std::vector<Fields> tunables = tunable_fields(c);
+  const std::vector<Fields> tunables = tunable_fields(c.law, ScalarType::float64);
   std::string values;
   for (const Fields& tunable : tunables) values += (values.empty() ? "" : ", ") + tunable.at("value");
   model.fields = {{"law", c99_name(c)},
@@ -131,7 +132,7 @@ CodeModel description_model(const Compilation& c, const std::string& token) {
                   {"estimator", file["estimator"]}};
   std::vector<std::string> names = {"s", units.position, units.velocity, units.damping, units.force};
   model.lists["tunables"];
-  for (Fields tunable : tunable_fields(c)) {
+  for (Fields tunable : tunable_fields(c.law, ScalarType::float64)) {
     names.push_back(tunable["unit"]);
     tunable["reference"] = std::to_string(first_parameter + model.lists["tunables"].size());
     model.lists["tunables"].push_back(std::move(tunable));

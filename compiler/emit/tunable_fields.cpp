@@ -1,0 +1,47 @@
+#include "emit/tunable_fields.hpp"
+
+#include <fmt/format.h>
+
+#include "emit/cpp_program.hpp"
+#include "emit/cpp_statements.hpp"
+
+namespace dashpot::compiler {
+
+std::vector<Fields> tunable_fields(const UpdateLaw& law, ScalarType literals) {
+  std::vector<Fields> all;
+  for (const Tunable& t : law.parameters()) {
+    const std::string value = cpp_literal(t.range.value, literals), min = cpp_literal(t.range.min, literals),
+                      max = cpp_literal(t.range.max, literals);
+    all.push_back(
+        {{"tunable", t.name},
+         {"member", t.name == "restrict" ? "restrict_" : t.name},  // the one word that C keeps and C++ does not
+         {"unit", t.unit},
+         {"low", fmt::format("{}", t.range.min)},
+         {"high", fmt::format("{}", t.range.max)},
+         {"value", value},
+         {"min", min},
+         {"max", max},
+         {"bounds", fmt::format("{{{}, {}}}", min, max)},
+         {"range", fmt::format("{{{}, {}, {}}}", value, min, max)},
+         {"index", std::to_string(all.size())},
+         {"variable", law.variables[t.value].name},
+         {"scalar_variable", CppStatements::scalar_name(law.variables[t.value])}});
+  }
+  return all;
+}
+
+void add_tunables(const UpdateLaw& law, CodeModel& model) {
+  std::vector<Fields>& tunables = model.lists["tunables"] = tunable_fields(law, law.scalar);
+  for (const char* list : {"no_tunable", "any_tunable"}) model.lists[list];
+  std::string first, wanted;
+  for (const Fields& tunable : tunables) {
+    first += (first.empty() ? "{" : ", ") + tunable.at("value");
+    wanted += (wanted.empty() ? "{wanted->" : ", wanted->") + tunable.at("member");
+  }
+  if (tunables.empty()) model.lists["no_tunable"].push_back({});
+  else
+    model.lists["any_tunable"].push_back(
+        {{"count", std::to_string(tunables.size())}, {"first", first + "}"}, {"wanted", wanted + "}"}});
+}
+
+}  // namespace dashpot::compiler

@@ -202,16 +202,15 @@ std::optional<ReferenceGain> reference_gain(const ReferenceTree& tree, const Ref
   const std::optional<ReferenceGain> pulse = compensation > 0 ? reference_pulse(loop) : ReferenceGain{0, 0};
   if (!sum || !pulse) return std::nullopt;
   Reference held = 0;
-  for (std::size_t i = 0; i < tree.components.size(); ++i) {
-    const std::vector<std::size_t> elements = elements_of(tree.components[i]);
-    const bool is_split = !touches && i < slips.components.size();
-    held += gain_of(held_companion(tree.components[i], facts).value(), held_form(network, elements),
-                    is_split ? &slips.components[i].shares : nullptr, facts);
-  }
+  const auto add = [&](const Reference& g, const std::vector<std::size_t>& part, const auto& splits, std::size_t i) {
+    const bool is_split = !touches && i < splits.size();
+    held += gain_of(g, held_form(network, part), is_split ? &splits[i].shares : nullptr, facts);
+  };
+  for (std::size_t i = 0; i < tree.components.size(); ++i)
+    add(held_companion(tree.components[i], facts).value(), elements_of(tree.components[i]), slips.components, i);
   for (std::size_t i = 0; i < tree.networks.size(); ++i) {
-    const Reference g = held_companion(reference_network(network, tree.networks[i]), network, tree.networks[i], facts);
-    const bool is_split = !touches && i < slips.networks.size();
-    held += gain_of(g, held_form(network, tree.networks[i]), is_split ? &slips.networks[i].shares : nullptr, facts);
+    const std::vector<std::size_t>& part = tree.networks[i];
+    add(held_companion(reference_network(network, part), network, part, facts), part, slips.networks, i);
   }
   return ReferenceGain{sum->least + held + compensation * pulse->least, sum->most + held + compensation * pulse->most};
 }

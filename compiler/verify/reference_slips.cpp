@@ -89,25 +89,23 @@ ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, co
   const Reference weight = Reference(lateness) * Reference(lateness) / Reference(facts.rate);
   const bool with_contact = network.contact.has_value();
   ReferenceCut sum{0, 0, 0};
-  const auto less_the_brake = [&](const std::vector<BrakeShare>& shares) {
-    if (with_contact || shares.empty()) return;
-    Reference least = Reference(shares.front().feedthrough);
-    for (const BrakeShare& share : shares) least = std::min(least, Reference(share.feedthrough));
+  const auto add = [&](const ReferenceCut& cut) { sum.stiffness += cut.stiffness, sum.damping += cut.damping; };
+  const auto less_the_brake = [&](const auto& splits, std::size_t i) {
+    if (with_contact || i >= splits.size() || splits[i].shares.empty()) return;
+    Reference least = Reference(splits[i].shares.front().feedthrough);
+    for (const BrakeShare& share : splits[i].shares) least = std::min(least, Reference(share.feedthrough));
     sum.brakes += least;
   };
   for (std::size_t i = 0; i < tree.components.size(); ++i) {
-    const ReferenceCut cut = least_cut(tree.components[i], facts, weight).value();
-    sum = {sum.stiffness + cut.stiffness, sum.damping + cut.damping, sum.brakes};
-    if (i < slips.components.size()) less_the_brake(slips.components[i].shares);
+    add(least_cut(tree.components[i], facts, weight).value());
+    less_the_brake(slips.components, i);
   }
   for (std::size_t i = 0; i < tree.networks.size(); ++i) {
-    const ReferenceCut cut = least_cut(network, tree.networks[i], facts, weight);
-    sum = {sum.stiffness + cut.stiffness, sum.damping + cut.damping, sum.brakes};
-    if (i < slips.networks.size()) less_the_brake(slips.networks[i].shares);
+    add(least_cut(network, tree.networks[i], facts, weight));
+    less_the_brake(slips.networks, i);
   }
-  if (!with_contact) return sum;
-  const ReferenceCut linear = cut_of(tree.linear, facts);
-  return {sum.stiffness + linear.stiffness, sum.damping + linear.damping, sum.brakes};
+  if (with_contact) add(cut_of(tree.linear, facts));
+  return sum;
 }
 
 Reference ReferenceCut::of_motor() const {

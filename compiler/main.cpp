@@ -285,8 +285,9 @@ void describe_exchange(CLI::App& app, CommandLine& line) {
 
 void describe_device(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
-  CLI::App* device = add_command(
-      app, line, "device", "Print a device, write it as code for its loop, or fill in its brake from the geometry of its blade");
+  CLI::App* device =
+      add_command(app, line, "device",
+                  "Print a device, write it as code for its loop, or fill in its brake from the geometry of its blade");
   BladeWords& blade = options.blade;
   device->add_option("DEVICE", options.device, "Device file")->required();
   CLI::Option* target =

@@ -330,7 +330,8 @@ class DeviceAsCode(CommandTest):
             self.assertFalse((self.folder / "out.hpp").exists())
 
     def test_as_it_is(self):
-        """Fails if a device is not printed as a file that is the same device, of one axis or two, or a broken one is."""
+        """Fails if what is printed of a device, of one axis or two, is no file of the same one, or a broken one is
+        printed."""
         for device in (PANTOGRAPH, SOURCE / "runtime/devices/pantograph_2dof.json"):
             printed = self.dashpot("device", device).stdout
             self.assertEqual(json.loads(printed), json.loads(device.read_text()))

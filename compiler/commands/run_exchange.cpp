@@ -148,8 +148,15 @@ ExitStatus run_export(const Options& options, SourceFiles& files, Diagnostics& d
   const auto c = compile(*file, options.choices, std::nullopt, diagnostics);
   if (!c) return ExitStatus::input_refused;
   if (!is_prony_series(*c, diagnostics)) return ExitStatus::input_refused;
-  const std::string text = write_prony(prony_series(c->form.linear), options.exchange.format, c->network.name,
-                                       port_units(c->network.port_motion).stiffness);
+  const PronySeries series = prony_series(c->form.linear);
+  const PronyFormat format = options.exchange.format;
+  if (const auto most = most_terms_of(format); most && series.terms.size() > *most) {
+    diagnostics.report<DiagnosticCode::prony_too_many_terms>(c->network.name_span, c->network.name, series.terms.size(),
+                                                             name_of(format), *most);
+    diagnostics.note<DiagnosticCode::prony_fewer_terms>({});
+    return ExitStatus::input_refused;
+  }
+  const std::string text = write_prony(series, format, c->network.name, port_units(c->network.port_motion).stiffness);
   return write_output(options, text, diagnostics);
 }
 

@@ -36,6 +36,9 @@ struct PronyRemarks {
 };
 PronyRemarks remarks_of(const SourceFile& file);
 
+// How many terms a material of the format can have, where it is known that it has room for no more.
+std::optional<std::size_t> most_terms_of(PronyFormat format);
+
 // The text of a file, or of the part of an input deck, in the format's own convention. Ensures: read_prony gives the
 // same series, to the rounding of one division by a stiffness. In: a series that is passive and relaxes.
 // `unit`: of the series' stiffness.

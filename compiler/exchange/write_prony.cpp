@@ -64,6 +64,15 @@ PronySeries in_convention(const PronySeries& series, PronyOf of) {
   return result;
 }
 
+// The FEBio material's arrays have six places; LS-DYNA reads 18 cards, of which one is of the long-term stiffness.
+std::optional<std::size_t> most_terms_of(PronyFormat format) {
+  switch (format) {
+    case PronyFormat::febio: return 6;
+    case PronyFormat::ls_dyna: return 17;
+    default: return std::nullopt;
+  }
+}
+
 std::string write_prony(const PronySeries& series, PronyFormat format, const std::string& name,
                         const std::string& unit) {
   const bool is_absolute = format == PronyFormat::ls_dyna;

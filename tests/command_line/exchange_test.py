@@ -120,6 +120,22 @@ class Exchange(CommandTest):
             self.refused("export", "network.json", "--to", "abaqus", "-o", "deck.inp", code="not-exported")
             self.assertEqual(self.files(), ["network.json"])
 
+    def test_more_terms_than_the_program_holds(self):
+        """Fails if terms are written that the other program has no place for, or a series that just fits is refused."""
+        for format, most in (("febio", 6), ("ls-dyna", 17)):
+            for count in (most, most + 1):
+                branches = ", ".join(f'{{ "series": [ {{ "spring": {10 + i} }}, {{ "damper": {2.0 ** i} }} ] }}'
+                                     for i in range(count))
+                self.write("network.json", network(f'{{ "parallel": [ {{ "spring": 3 }}, {branches} ] }}'))
+                words = ["export", "network.json", "--to", format, "-o", "deck"]
+                if count == most:
+                    self.dashpot(*words)
+                    (self.folder / "deck").unlink()
+                    continue
+                told = self.refused(*words, code="prony-too-many-terms").stderr
+                self.assertIn(f"a series of {count} terms; a material of {format} holds {most} at most", told)
+                self.assertEqual(self.files(), ["network.json"])
+
     def test_forms(self):
         """Fails if the Maxwell, Kelvin or Prony form of a network is not the same network."""
         given = form(self, FIG_5)

@@ -45,7 +45,7 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
   const auto chosen_on = [&](const PortDevice& port, const Device& device) {
     Compilation again = c;
     again.device = device;
-    Candidate& candidate = again.decomposition.candidates[again.decomposition.chosen];
+    Candidate& candidate = again.decomposition.choice();
     CandidateSettler settler(present, c.form, c.decomposition, choices, port, c.rate);
     settler.assume_jitter_gap(gap);
     settler.settle(candidate);
@@ -73,7 +73,7 @@ double settle_choice(Compilation& c, const Network& present, const Choices& choi
   const bool is_tunable = has_tunables(c.network), is_faithful = c.decomposition.choice().name == "faithful";
   if (is_tunable && !is_faithful) return 1;
   CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
-  settler.settle(c.decomposition.candidates[c.decomposition.chosen]);
+  settler.settle(c.decomposition.choice());
   if (is_faithful) {
     if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, device, c.rate);
     c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), c.network, choices);
@@ -106,7 +106,7 @@ double added_behind_curve(const Compilation& c) { return c.port.behind_curve(c.c
 // The error of the law as it is.
 void tell_what_is_felt(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
   if (device.is_ideal()) return;
-  Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
+  Candidate& choice = c.decomposition.choice();
   CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
   choice.largest_error = settler.largest_error(choice, added_behind_curve(c));
   if (choices.compared == Compared::nothing) return;
@@ -133,7 +133,7 @@ void warn_of_surface(const Contact& contact, const Compilation& c, Diagnostics& 
 
 // Of a network that is not linear: what the chosen candidate needs is known when the whole law is.
 void tell_of_certificate(Compilation& c) {
-  Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
+  Candidate& choice = c.decomposition.choice();
   const bool is_proved = c.certificate.bound.proof != Proof::none;
   choice.minimum_damping = is_proved ? std::optional(c.certificate.minimum_damping) : std::nullopt;
   choice.certified = is_proved ? std::optional(c.certificate.certified) : std::nullopt;

@@ -130,7 +130,7 @@ SlipDecomposition asked_for(SlipRuns& runs, const Candidate& beside, SlipLaw law
 bool is_lost_over_box(const Compilation& c, const Candidate& other, const Choices& choices, const PortDevice& device) {
   if (!has_tunables(c.network) || c.decomposition.choice().certified != true) return false;
   Decomposition changed = c.decomposition;
-  changed.candidates[changed.chosen] = other;
+  changed.choice() = other;
   return !is_certified_over_box(c.network, c.form, changed, choices, device, c.rate);
 }
 
@@ -153,7 +153,7 @@ void choose_slip_law(Compilation& c, const SlipDecomposer& behind_slips, const C
       const Candidate other = choose_beside_slips(c, choices, device, runs);
       if (!is_lost_over_box(c, other, choices, device)) {
         slips = SlipChooser(runs, other, choices, device).chosen(other.faithful->least_error);
-        c.decomposition.candidates[c.decomposition.chosen] = other;
+        c.decomposition.choice() = other;
       }
     }
   }
@@ -163,7 +163,7 @@ void choose_slip_law(Compilation& c, const SlipDecomposer& behind_slips, const C
 double damping_on_another_device(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices,
                                  const PortDevice& device) {
   Compilation one = c;
-  Candidate& beside = one.decomposition.candidates[one.decomposition.chosen];
+  Candidate& beside = one.decomposition.choice();
   if (!beside.faithful) return beside.damping;
   std::erase_if(beside.state_inputs,
                 [&](const StateInputMerit& merit) { return merit.state_input != beside.state_input; });

@@ -93,7 +93,7 @@ SlipOption SlipRuns::run(const Candidate& beside, const SlipPlan& plan) {
 // The motor makes everything, at so many times the rate.
 UpdateLaw SlipRuns::by_motor(int times) const {
   Decomposition whole = c_.decomposition;
-  Candidate& choice = whole.candidates[whole.chosen];
+  Candidate& choice = whole.choice();
   choice.damping = 0;
   choice.state_input = StateInput::position;
   whole.encoder_step = 0;
@@ -108,7 +108,7 @@ UpdateLaw SlipRuns::behind_curve(UpdateLaw law, double added_damping) const {
 
 Compilation SlipRuns::made_by(const Candidate& beside, const SlipPlan& plan) {
   Compilation made = c_;
-  made.decomposition.candidates[made.decomposition.chosen] = beside;
+  made.decomposition.choice() = beside;
   made.decomposition.slips = decomposed(beside, plan);
   made.law = discretise(made.network, made.form, made.decomposition, choices_, made.rate);
   const auto slips = slip_motor(made.network, made.form, made.decomposition, choices_, loop_);

@@ -36,7 +36,7 @@ class BoxChoice {
     Weighed result{faithful, {}};
     settler_.place(result.candidate, damping);
     Decomposition tried = decomposition_;
-    tried.candidates[tried.chosen] = result.candidate;
+    tried.choice() = result.candidate;
     Diagnostics of_trial;  // a damping at which no law can be written is not chosen
     std::optional<UpdateLaw> law = discretise_tunable(network_, form_, tried, choices_, rate_, port_, of_trial);
     if (!law) return std::nullopt;
@@ -100,9 +100,8 @@ void choose_over_box(const Network& network, const NormalForm& form, Decompositi
     look_at((chosen + next) / 2);
     choice = choose_faithful(options, choices.tolerance);
   }
-  Candidate best = candidates[choice.chosen];
-  best.faithful = choice;
-  decomposition.candidates[decomposition.chosen] = best;
+  decomposition.choice() = candidates[choice.chosen];
+  decomposition.choice().faithful = choice;
 }
 
 bool is_certified_over_box(const Network& network, const NormalForm& form, const Decomposition& decomposition,

@@ -64,6 +64,7 @@ struct Decomposition {
   LinearForm realisation;  // the canonical form with the spring shares of the observer's realisation, for `nodal`
 
   const Candidate& choice() const { return candidates[chosen]; }
+  Candidate& choice() { return candidates[chosen]; }
 };
 
 // In: the network, its canonical form, the user's choices with their names (with_names). Ensures: every damping ≥ 0 and

@@ -100,6 +100,9 @@ void CandidateSettler::settle_at(Candidate& candidate) {
   }
 }
 
+// What it gives in every regime, `beside` of it besides what is behind slips.
+double CandidateSettler::least_brake(double beside) const { return beside + (slips_ ? slips_->least_brake : 0); }
+
 // What the brake gives, at the tool. Where a surface can be left, more than b∞ would have to be taken back by the motor
 // in the samples of a touch, and nothing is added: the brake is off while the tool is free.
 SearchReach CandidateSettler::reach() const {
@@ -108,13 +111,14 @@ SearchReach CandidateSettler::reach() const {
                     loop_.max_damping,
                     0,
                     assured_share(loop_).convert_to<double>(),
-                    assured_damping(loop_, Rational(slips_ ? slips_->least_brake : 0)).convert_to<double>(),
+                    assured_damping(loop_, least_brake(0)).convert_to<double>(),
                     true,
                     proof_reserve};
-  if (slips_ && !network_.contact) reach.besides = slips_->largest_brake;
   if (network_.contact) {
     reach.most = std::min(reach.most, feedthrough);
     reach.adds = false;
+  } else if (slips_) {
+    reach.besides = slips_->largest_brake;
   }
   return reach;
 }
@@ -130,16 +134,20 @@ void CandidateSettler::place(Candidate& candidate, double damping) {
   }
 }
 
+UpdateLaw CandidateSettler::law_without_brake(const Network& network, StateInput input) const {
+  Decomposition single = decomposition_;
+  single.choice().damping = 0;
+  single.choice().state_input = input;
+  return discretise(network, form_, single, choices_, rate_);
+}
+
 // Relative to the network while all slips hold, where their regimes are listed.
 const FeltError& CandidateSettler::felt(StateInput input) {
   std::unique_ptr<FeltError>& known = felt_[input];
   if (known) return *known;
-  Decomposition single = decomposition_;
-  single.candidates[single.chosen].damping = 0;
-  single.candidates[single.chosen].state_input = input;
   Network touched = network_;
   touched.contact.reset();
-  const UpdateLaw law = discretise(touched, form_, single, choices_, rate_);
+  const UpdateLaw law = law_without_brake(touched, input);
   LinearForm whole = form_.linear;
   for (const ComponentSplit* split : decomposition_.slips.all())
     if (!split->regimes.regimes.empty()) whole = in_parallel(whole, split->regimes.regimes.front().form);
@@ -168,10 +176,7 @@ CandidateSettler::ErrorOverBand CandidateSettler::error_over_band(const Candidat
 
 const std::optional<MotorConstants>& CandidateSettler::without_brake(StateInput input) {
   if (const auto known = motors_.find(input); known != motors_.end()) return known->second;
-  Decomposition single = decomposition_;
-  single.candidates[single.chosen].damping = 0;
-  single.candidates[single.chosen].state_input = input;
-  const UpdateLaw law = discretise(network_, form_, single, choices_, rate_);
+  const UpdateLaw law = law_without_brake(network_, input);
   const bool needs_whole = !network_.map && (network_.contact || !form_.has_slips());
   return motors_.emplace(input, needs_whole ? motor_constants(law) : linear_motor_constants(law)).first->second;
 }
@@ -225,9 +230,8 @@ PassivityBound CandidateSettler::behind_curve(MotorConstants motor, double dampi
   PassivityBound bound =
       bound_behind_curve(std::move(motor), damping, network_, slips_, at_tool, curve_stretches_, loop_);
   if (bound.proof == Proof::none) return bound;
-  const Rational brake = damping + (slips_ ? slips_->least_brake : 0);
-  bound.needed =
-      assured_damping(loop_, brake).convert_to<double>() + lacking_behind_curve(bound, damping, *network_.map, tool);
+  bound.needed = assured_damping(loop_, least_brake(damping)).convert_to<double>() +
+                 lacking_behind_curve(bound, damping, *network_.map, tool);
   return bound;
 }
 
@@ -236,10 +240,9 @@ void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
   merit.proof = name_of(needed.proof);
   merit.binding_frequency = needed.frequency;
   merit.minimum_damping.reset();
-  const double least_brake = candidate.damping + (slips_ ? slips_->least_brake : 0);
   merit.is_within_brake = false;
   if (needed.proof != Proof::none) {
-    merit.minimum_damping = missing_damping(needed, loop_, least_brake) / device_.behind_curve(1);
+    merit.minimum_damping = missing_damping(needed, loop_, least_brake(candidate.damping)) / device_.behind_curve(1);
     merit.is_within_brake = is_within_brake(candidate.damping, needed);
   }
   if (!device_.is_ideal()) merit.largest_error = felt(merit.state_input).largest(candidate.damping, added_in(merit));
@@ -249,10 +252,9 @@ void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
 // decides whether there is a certificate.
 bool CandidateSettler::is_within_brake(double damping, PassivityBound needed) const {
   const double largest_brake = damping + (slips_ ? slips_->largest_brake : 0);
-  const double least_brake = damping + (slips_ ? slips_->least_brake : 0);
   const double reach = device_.is_ideal() ? largest_brake : loop_.max_damping;
   if (!device_.is_ideal() && needed.proof == Proof::sampled) needed.needed *= 1 + proof_reserve;
-  return largest_brake + missing_damping(needed, loop_, least_brake) <= reach;
+  return largest_brake + missing_damping(needed, loop_, least_brake(damping)) <= reach;
 }
 
 void CandidateSettler::take(Candidate& candidate, const StateInputMerit& merit) {

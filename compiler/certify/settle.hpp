@@ -48,7 +48,9 @@ class CandidateSettler {
   const FeltError& felt(StateInput input);
   double added_in(const StateInputMerit& merit) const;
   bool is_within_brake(double damping, PassivityBound needed) const;
+  double least_brake(double beside) const;
   SearchReach reach() const;
+  UpdateLaw law_without_brake(const Network& network, StateInput input) const;
   const std::optional<MotorConstants>& without_brake(StateInput input);
   PassivityBound bound(StateInput input, double damping, std::size_t terms = most_terms);
   std::optional<MotorConstants> motor_at(StateInput input, double damping);

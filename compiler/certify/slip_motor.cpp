@@ -12,21 +12,15 @@
 namespace dashpot::compiler {
 namespace {
 
-// min x over a component's regimes; nothing where they are not listed.
-Real least_feedthrough(const ComponentSplit& split) {
-  if (split.shares.empty()) return 0;
-  return std::min_element(split.shares.begin(), split.shares.end(),
-                          [](const BrakeShare& x, const BrakeShare& y) { return x.feedthrough < y.feedthrough; })
-      ->feedthrough;
+// Over a component's regimes; 0 where they are not listed.
+template <class Number>
+Number least_of(const ComponentSplit& split, Number BrakeShare::*number) {
+  return split.shares.empty() ? Number(0) : std::ranges::min(split.shares, {}, number).*number;
 }
 
 double largest_behind_slips(const SlipDecomposition& slips) {
   double sum = 0;
-  for (const ComponentSplit* split : slips.all()) {
-    double largest = 0;
-    for (const BrakeShare& share : split->shares) largest = std::max(largest, share.damping);
-    sum += largest;
-  }
+  for (const ComponentSplit* split : slips.all()) sum += split->largest_damping();
   return sum;
 }
 
@@ -50,28 +44,19 @@ class Sum {
       : network_(network), settings_(settings), half_step_(encoder_step / 2), margin_(1 + 16 * unit_roundoff(scalar)) {}
 
   // Every part has a cut: where slips alone join tool and ground the force is not unique, and the network was refused.
-  // `shares`: x of every regime; 0 for a part behind a contact, where the brake makes some of the dampers' force or, in
-  // the worst case, none.
-  void add(const NormalTree& component, const std::vector<Real>& shares) {
+  // `split`: what is the brake's; nothing of a part behind a contact, where the brake makes some of the dampers' force
+  // or, in the worst case, none.
+  void add(const NormalTree& component, const ComponentSplit& split) {
+    const std::vector<Real> shares = feedthroughs(split);
     add(least_cut(component, settings_).value());
     add_held(held_slips(component, shares, settings_), shares);
+    add_brake(split);
   }
-  void add(const std::vector<std::size_t>& elements, const std::vector<Real>& shares) {
+  void add(const std::vector<std::size_t>& elements, const ComponentSplit& split) {
+    const std::vector<Real> shares = feedthroughs(split);
     add(least_cut(network_, elements, settings_).value());
     add_held(held_slips(network_, elements, shares, settings_), shares);
-  }
-
-  void add_brake(const ComponentSplit& split) {
-    cut_.damping -= least_feedthrough(split);
-    double least = 0, largest = 0;
-    for (std::size_t i = 0; i < split.shares.size(); ++i) {
-      const BrakeShare& share = split.shares[i];
-      least = i == 0 ? share.damping : std::min(least, share.damping);
-      largest = std::max(largest, share.damping);
-    }
-    motor_.least_brake += least;
-    motor_.largest_brake += largest;
-    add_compensation(split);
+    add_brake(split);
   }
 
   // The brake has the dampers while the tool touches, and not while it is free. What it has earned it has earned since
@@ -107,6 +92,13 @@ class Sum {
   }
 
  private:
+  void add_brake(const ComponentSplit& split) {
+    cut_.damping -= least_of(split, &BrakeShare::feedthrough);
+    motor_.least_brake += least_of(split, &BrakeShare::damping);
+    motor_.largest_brake += split.largest_damping();
+    add_compensation(split);
+  }
+
   void add(const Cut& cut) {
     cut_ += cut;
     dampers_ += cut.damping;
@@ -156,25 +148,22 @@ std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& fo
   if (!form.has_slips() && !network.contact) return std::nullopt;
   const SlipDecomposition& slips = decomposition.slips;
   Sum sum(network, {choices.scheme, Real(loop.sample_period), lateness(loop)}, loop.encoder_step, choices.scalar);
+  const ComponentSplit nothing{};
+  const auto of_brake = [&](const ComponentSplit& split) -> const ComponentSplit& {
+    return network.contact ? nothing : split;
+  };
   const bool is_split = slips.components.size() == form.components.size();
-  const std::vector<Real> nothing = {Real(0)};
-  for (std::size_t i = 0; i < form.components.size(); ++i) {
-    const bool is_braked = is_split && !network.contact;
-    sum.add(is_split ? slips.components[i].rendered : form.components[i],
-            is_braked ? feedthroughs(slips.components[i]) : nothing);
-    if (is_braked) sum.add_brake(slips.components[i]);
-  }
+  for (std::size_t i = 0; i < form.components.size(); ++i)
+    if (is_split) sum.add(slips.components[i].rendered, of_brake(slips.components[i]));
+    else sum.add(form.components[i], nothing);
   if (slips.networks.empty())
     for (const std::vector<std::size_t>& part : form.networks) sum.add(part, nothing);
-  for (const ComponentSplit& split : slips.networks) {
-    sum.add(split.rendered_elements, network.contact ? nothing : feedthroughs(split));
-    if (!network.contact) sum.add_brake(split);
-  }
+  for (const ComponentSplit& split : slips.networks) sum.add(split.rendered_elements, of_brake(split));
   if (network.contact) {
     sum.add_behind_contact(form.linear, decomposition.choice().damping, largest_behind_slips(slips));
     for (const ComponentSplit* split : slips.all()) sum.add_compensation(*split);
-  } else {
-    if (may_fall_short(slips)) sum.make_up(slips.make_up);
+  } else if (may_fall_short(slips)) {
+    sum.make_up(slips.make_up);
   }
   return sum.result();
 }

@@ -78,10 +78,15 @@ struct ComponentSplit {
   SlipLaw law = SlipLaw::by_motor;
   std::string reason;
 
-  double largest_compensation() const {
-    double largest = 0;
-    for (const BrakeShare& share : shares) largest = share.compensation > largest ? share.compensation : largest;
-    return largest;
+  // Over its regimes; 0 where it gives the brake nothing.
+  double largest_damping() const { return largest(&BrakeShare::damping); }
+  double largest_compensation() const { return largest(&BrakeShare::compensation); }
+
+ private:
+  double largest(double BrakeShare::*number) const {
+    double most = 0;
+    for (const BrakeShare& share : shares) most = share.*number > most ? share.*number : most;
+    return most;
   }
 };
 

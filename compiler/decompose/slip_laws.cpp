@@ -13,12 +13,6 @@ PartDecomposer decomposer_of(SlipPart part, const Network& network) {
   return {std::move(part), has_tunables(network), network.contact.has_value()};
 }
 
-double largest_damping(const ComponentSplit& split) {
-  double largest = 0;
-  for (const BrakeShare& share : split.shares) largest = std::max(largest, share.damping);
-  return largest;
-}
-
 // What the brake cannot give to all regimes at once stays in the motor: any x ≤ b∞ may be taken out of f, and what the
 // motor takes back shrinks with the excess that it is a share of. Returns what is left of the brake.
 double cap(std::vector<ComponentSplit>& splits, double reach) {
@@ -31,7 +25,7 @@ double cap(std::vector<ComponentSplit>& splits, double reach) {
       share.damping = reach;
       share.feedthrough = std::min(share.feedthrough, Real(reach));
     }
-    reach -= largest_damping(split);
+    reach -= split.largest_damping();
   }
   return reach;
 }
@@ -115,7 +109,7 @@ SlipDecomposition SlipDecomposer::decomposed(const Candidate& linear_part, const
   if (const std::optional<double> most = device.max_damping())
     cap(slips.networks, cap(slips.components, std::max(0.0, *most - linear_part.damping - plan.reserve)));
   double span = 0;
-  for (const ComponentSplit* split : slips.all()) span += largest_damping(*split);
+  for (const ComponentSplit* split : slips.all()) span += split->largest_damping();
   slips.hysteresis = hysteresis_steps * device.encoder_step();
   slips.coil_share = coil_share(device, std::sqrt(span));
   slips.assured_share = assured_share(device);

@@ -227,9 +227,7 @@ Certificate certificate_of_all(const std::vector<Compilation>& ports, PassivityB
   const double told = surely_told(law.damping, law.scalar);
   if (all.bound.proof != Proof::none)
     all.minimum_damping = missing_damping(all.bound, loop, std::max(told - all.added_damping, 0.0));
-  const Rational assured = assured_damping(loop, told);
-  all.assured = assured.convert_to<double>();
-  all.certified = all.bound.proof != Proof::none && assured >= Rational(all.bound.needed);
+  compare_with_bound(all, assured_damping(loop, told));
   all.energy = sum_of_lemmas(ports, law.scalar);
   all.limits = sum_of_limits(ports);
   if (loop.encoder_step > 0) all.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;

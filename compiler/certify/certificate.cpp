@@ -204,6 +204,11 @@ std::string_view name_of(Proof proof) {
   return "";
 }
 
+void compare_with_bound(Certificate& certificate, const Rational& assured) {
+  certificate.assured = assured.convert_to<double>();
+  certificate.certified = certificate.bound.proof != Proof::none && assured >= Rational(certificate.bound.needed);
+}
+
 double brake_command(const PassivityBound& bound, const SampledLoop& loop, double damping, ScalarType scalar) {
   const double alone = nearest(damping, scalar);
   if (!loop.has_device || bound.proof == Proof::none) return alone;
@@ -299,14 +304,6 @@ double add_missing(UpdateLaw& law, const PassivityBound& bound, const SampledLoo
   return added;
 }
 
-// Whether what the brake assures is enough.
-void compare(Certificate& result, const UpdateLaw& law, bool any_regime) {
-  const Rational assured = assured_damping(result.loop, surely_told(law));
-  result.assured = assured.convert_to<double>();
-  result.certified = result.bound.proof != Proof::none && assured >= Rational(result.bound.needed);
-  result.bound.any_regime = any_regime;
-}
-
 // The bound, what is added for it, and whether that is enough. `known`: the bound, where it is.
 Certificate decided(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips,
                     const std::optional<PassivityBound>& known) {
@@ -317,7 +314,8 @@ Certificate decided(UpdateLaw& law, const SampledLoop& loop, const std::optional
     result.minimum_damping = missing_damping(result.bound, loop, surely_told(law));
     result.added_damping = add_missing(law, result.bound, loop, slips && slips->behind_contact);
   }
-  compare(result, law, slips.has_value());
+  compare_with_bound(result, assured_damping(loop, surely_told(law)));
+  result.bound.any_regime = slips.has_value();
   return result;
 }
 
@@ -352,7 +350,8 @@ Certificate decided_over_box(UpdateLaw& law, const SampledLoop& loop, bool has_s
   result.quantisation_gain = box.quantisation_gain;
   law.damping = box.least_brake + added;
   law.largest_damping = box.largest_brake + added;
-  compare(result, law, has_slips);
+  compare_with_bound(result, assured_damping(loop, surely_told(law)));
+  result.bound.any_regime = has_slips;
   return result;
 }
 

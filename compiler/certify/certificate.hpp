@@ -76,6 +76,9 @@ PassivityBound with_slips(PassivityBound beside, const SlipMotor& slips, const S
 // enough.
 double missing_damping(const PassivityBound& bound, const SampledLoop& loop, double brake);
 
+// Whether the damping that is assured is as much as the certificate's bound asks for.
+void compare_with_bound(Certificate& certificate, const Rational& assured);
+
 // The brake's command for the b of the decomposition, `damping`: on a device with what passivity lacks added, as far as
 // the brake reaches. A number of the scalar's type.
 double brake_command(const PassivityBound& bound, const SampledLoop& loop, double damping, ScalarType scalar);

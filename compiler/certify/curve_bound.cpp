@@ -279,7 +279,7 @@ std::string hindrance_of_coil(double damping, const MotionMap& map, const PortDe
 
 // The whole bound: what lacks, and what the brake assures.
 PassivityBound lacking_beside(double lacking, double damping, const Network& network, const SampledLoop& tool) {
-  if (!std::isfinite(lacking)) return not_proved("the amplifier lags, and the jitter is a sample or more");
+  if (!std::isfinite(lacking)) return not_proved(at_once);
   const MotionMap& map = *network.map;
   const double least = map.least_tangent(0, map.reach);
   const Rational told = Rational(damping) * Rational(least) * Rational(least);
@@ -424,9 +424,7 @@ Certificate certify_behind_curve(UpdateLaw& law, const Network& network, const s
     const bool fits = tool.has_device && !network.contact && most + added <= tool.max_damping;
     if (result.minimum_damping > 0 && fits) result.added_damping = rounded(Real(added), law.scalar);
   }
-  const Rational assured = assured_damping(tool, Rational(least) + Rational(result.added_damping * (1 - rounding)));
-  result.assured = assured.convert_to<double>();
-  result.certified = result.bound.proof != Proof::none && assured >= Rational(result.bound.needed);
+  compare_with_bound(result, assured_damping(tool, Rational(least) + Rational(result.added_damping * (1 - rounding))));
   result.limits = limits_behind_curve(tool, result);
   if (tool.encoder_step > 0) result.quantisation_stiffness = 2 * tool.coulomb_friction / tool.encoder_step;
   return result;

@@ -7,6 +7,7 @@
 
 #include "certify/estimator_factors.hpp"
 #include "certify/hold_bound.hpp"
+#include "certify/unproved.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -186,7 +187,7 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
   limits.rule = slips || linear.follows_estimate() || !slew_is_enough ? LimitRule::sheds : LimitRule::clamps;
   limits.reason = gains.hindrance;
   if (!slew_is_enough) limits.reason = "its force may have to fall faster than the motor's slew";
-  if (!std::isfinite(time_of_lag(loop))) limits.reason = "the amplifier lags, and the jitter is a sample or more";
+  if (!std::isfinite(time_of_lag(loop))) limits.reason = at_once;
   if (loop.motor_slew > 0 && loop.amplifier_lag > 0) limits.reason = "the amplifier lags, and its slew is limited";
   if (limits.reason.empty()) {
     const double slew_time =

@@ -32,15 +32,15 @@ struct Line {
 
 class BesideSearch {
  public:
-  BesideSearch(const Compilation& c, const Choices& choices, const PortDevice& device, SlipRuns& runs)
+  BesideSearch(const Compilation& c, const Choices& choices, SlipRuns& runs)
       : runs_(runs),
         present_(at_default(c.network)),
-        settler_(present_, c.form, c.decomposition, choices, device, c.rate),
+        settler_(present_, c.form, c.decomposition, choices, c.port, c.rate),
         choices_(choices),
-        device_(device),
+        device_(c.port),
         before_(runs.chosen_beside()) {
     const double feedthrough = to_double(c.form.linear.feedthrough_damping);
-    most_ = device.max_damping().value_or(0);
+    most_ = device_.max_damping().value_or(0);
     if (c.network.contact) most_ = std::min(most_, feedthrough);
     for (const StateInputMerit& merit : before_.state_inputs)
       for (const SlipLaw law : runs.laws()) {
@@ -173,8 +173,8 @@ class BesideSearch {
 
 }  // namespace
 
-Candidate choose_beside_slips(const Compilation& c, const Choices& choices, const PortDevice& device, SlipRuns& runs) {
-  return BesideSearch(c, choices, device, runs).chosen();
+Candidate choose_beside_slips(const Compilation& c, const Choices& choices, SlipRuns& runs) {
+  return BesideSearch(c, choices, runs).chosen();
 }
 
 }  // namespace dashpot::compiler

@@ -12,6 +12,6 @@ namespace dashpot::compiler {
 //
 // For one state input and one law what is felt is nearly affine in b, so that both errors are convex in it: between
 // dampings that have been run the felt forces are interpolated, and what is found in this way is run to be sure.
-Candidate choose_beside_slips(const Compilation& c, const Choices& choices, const PortDevice& device, SlipRuns& runs);
+Candidate choose_beside_slips(const Compilation& c, const Choices& choices, SlipRuns& runs);
 
 }  // namespace dashpot::compiler

@@ -45,12 +45,13 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
   const auto chosen_on = [&](const PortDevice& port, const Device& device) {
     Compilation again = c;
     again.device = device;
+    again.port = port;
     Candidate& candidate = again.decomposition.choice();
     CandidateSettler settler(present, c.form, c.decomposition, choices, port, c.rate);
     settler.assume_jitter_gap(gap);
     settler.settle(candidate);
     if (has_tunables(c.network)) choose_over_box(c.network, c.form, again.decomposition, choices, port, c.rate);
-    return c.form.has_slips() ? damping_on_another_device(again, behind_slips, choices, port) : candidate.damping;
+    return c.form.has_slips() ? damping_on_another_device(again, behind_slips, choices) : candidate.damping;
   };
   const std::vector<VariedDevice> devices = with_assumed_varied(*c.device);
   for (const VariedDevice& varied : devices) {
@@ -68,24 +69,24 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
 
 // Without a device nothing tells the state inputs apart, and nothing is added: the certificate comes with the law. Out:
 // the gap of jitter at what is chosen.
-double settle_choice(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
-  if (device.is_ideal()) return 1;
+double settle_choice(Compilation& c, const Network& present, const Choices& choices) {
+  if (c.port.is_ideal()) return 1;
   const bool is_tunable = has_tunables(c.network), is_faithful = c.decomposition.choice().name == "faithful";
   if (is_tunable && !is_faithful) return 1;
-  CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
+  CandidateSettler settler(present, c.form, c.decomposition, choices, c.port, c.rate);
   settler.settle(c.decomposition.choice());
   if (is_faithful) {
-    if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, device, c.rate);
+    if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, c.port, c.rate);
     c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), c.network, choices);
   }
   return settler.last_jitter_gap();
 }
 
 // What is compared with the choice, with what is chosen behind the slips.
-void settle_compared(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
+void settle_compared(Compilation& c, const Network& present, const Choices& choices) {
   const bool is_faithful = c.decomposition.choice().name == "faithful";
-  if (device.is_ideal() || (has_tunables(c.network) && !is_faithful)) return;
-  CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
+  if (c.port.is_ideal() || (has_tunables(c.network) && !is_faithful)) return;
+  CandidateSettler settler(present, c.form, c.decomposition, choices, c.port, c.rate);
   for (Candidate& candidate : c.decomposition.candidates)
     if (&candidate != &c.decomposition.choice() && is_compared(candidate)) settler.settle(candidate);
   if (is_faithful) return;
@@ -104,14 +105,14 @@ Beside what_is_beside_slips(const NormalForm& form) {
 double added_behind_curve(const Compilation& c) { return c.port.behind_curve(c.certificate.added_damping); }
 
 // The error of the law as it is.
-void tell_what_is_felt(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
-  if (device.is_ideal()) return;
+void tell_what_is_felt(Compilation& c, const Network& present, const Choices& choices) {
+  if (c.port.is_ideal()) return;
   Candidate& choice = c.decomposition.choice();
-  CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
+  CandidateSettler settler(present, c.form, c.decomposition, choices, c.port, c.rate);
   choice.largest_error = settler.largest_error(choice, added_behind_curve(c));
   if (choices.compared == Compared::nothing) return;
   c.decomposition.in_words = choice_in_words(
-      c.decomposition, {port_units(c.network.port_motion), device.max_damping().value_or(0), device.steepest(),
+      c.decomposition, {port_units(c.network.port_motion), c.port.max_damping().value_or(0), c.port.steepest(),
                         has_tunables(c.network), to_double(zero_frequency_damping(c.form.linear)),
                         to_double(c.form.linear.feedthrough_damping), what_is_beside_slips(c.form)});
 }
@@ -233,11 +234,11 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
       decompose(present, result.form, behind_slips, choices, result.port, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
-  const double gap = settle_choice(result, present, choices, result.port);
+  const double gap = settle_choice(result, present, choices);
   // With tunable parameters nothing has to be run, but `faithful` leaves the slips another share of the brake.
   const bool slips_are_as_split = is_tunable && result.decomposition.choice().name != "faithful";
-  if (result.form.has_slips() && !slips_are_as_split) choose_slip_law(result, behind_slips, choices, result.port);
-  if (choices.compared != Compared::nothing) settle_compared(result, present, choices, result.port);
+  if (result.form.has_slips() && !slips_are_as_split) choose_slip_law(result, behind_slips, choices);
+  if (choices.compared != Compared::nothing) settle_compared(result, present, choices);
   if (result.decomposition.choice().faithful && choices.compared == Compared::variations)
     result.decomposition.moves = moves_of(result, present, behind_slips, choices, gap);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
@@ -259,7 +260,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   certify_law(result, choices);
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   if (!result.port.is_ideal() && result.beyond_linear()) tell_of_certificate(result);
-  tell_what_is_felt(result, present, choices, result.port);
+  tell_what_is_felt(result, present, choices);
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;
 }

@@ -25,8 +25,8 @@ SlipDecomposition with_reasons(SlipDecomposition slips, const std::string& reaso
 // The law behind slips, for one damping beside them.
 class SlipChooser {
  public:
-  SlipChooser(SlipRuns& runs, const Candidate& beside, const Choices& choices, const PortDevice& device)
-      : runs_(runs), beside_(beside), choices_(choices), device_(device) {}
+  SlipChooser(SlipRuns& runs, const Candidate& beside, const Choices& choices)
+      : runs_(runs), beside_(beside), choices_(choices) {}
 
   // `least_elsewhere`: the least error that another damping beside the slips reaches.
   SlipDecomposition chosen(std::optional<double> least_elsewhere = std::nullopt) {
@@ -51,7 +51,7 @@ class SlipChooser {
     };
     for (const SlipOption& option : options_) look_at(option);
     if (floor) look_at(*floor);
-    return device_.is_ideal() || std::isinf(least_certified) ? least : least_certified;
+    return runs_.is_ideal() || std::isinf(least_certified) ? least : least_certified;
   }
 
   // What is felt is linear in the excess, so between none and all of it the largest that keeps to the limit is found
@@ -84,9 +84,9 @@ class SlipChooser {
       if (!is_within(merit.error(), limit_)) continue;
       within.push_back(&option);
       const std::optional<double> added =
-          device_.is_ideal() && merit.minimum_damping ? std::optional(0.0) : merit.minimum_damping;
+          runs_.is_ideal() && merit.minimum_damping ? std::optional(0.0) : merit.minimum_damping;
       evaluated.push_back(
-          {merit.mean_damping, merit.error(), added, device_.is_ideal() || merit.certified, merit.motor_noise});
+          {merit.mean_damping, merit.error(), added, runs_.is_ideal() || merit.certified, merit.motor_noise});
     }
     return *within[choose_faithful(evaluated, limit_).chosen];
   }
@@ -110,13 +110,12 @@ class SlipChooser {
   SlipRuns& runs_;
   const Candidate& beside_;
   const Choices& choices_;
-  const PortDevice& device_;
   std::vector<SlipOption> options_;
   double least_ = 0, limit_ = 0;
 };
 
-SlipDecomposition asked_for(SlipRuns& runs, const Candidate& beside, SlipLaw law, const PortDevice& device) {
-  if (device.is_ideal())
+SlipDecomposition asked_for(SlipRuns& runs, const Candidate& beside, SlipLaw law) {
+  if (runs.is_ideal())
     return with_reasons(runs.made_with_room(beside, runs.plan(law)).decomposition.slips, "asked for");
   const SlipOption option = runs.run(beside, runs.plan(law));
   SlipDecomposition slips = option.made.decomposition.slips;
@@ -127,32 +126,31 @@ SlipDecomposition asked_for(SlipRuns& runs, const Candidate& beside, SlipLaw law
 }
 
 // Whether tunable parameters cost another damping beside the slips the certificate that the present one has.
-bool is_lost_over_box(const Compilation& c, const Candidate& other, const Choices& choices, const PortDevice& device) {
+bool is_lost_over_box(const Compilation& c, const Candidate& other, const Choices& choices) {
   if (!has_tunables(c.network) || c.decomposition.choice().certified != true) return false;
   Decomposition changed = c.decomposition;
   changed.choice() = other;
-  return !is_certified_over_box(c.network, c.form, changed, choices, device, c.rate);
+  return !is_certified_over_box(c.network, c.form, changed, choices, c.port, c.rate);
 }
 
 }  // namespace
 
-void choose_slip_law(Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices,
-                     const PortDevice& device) {
-  SlipRuns runs(c, behind_slips, choices, device);
+void choose_slip_law(Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices) {
+  SlipRuns runs(c, behind_slips, choices);
   Candidate beside = c.decomposition.choice();
   SlipDecomposition slips;
   if (const std::optional<SlipLaw> asked = slip_law_asked_for(choices)) {
-    slips = asked_for(runs, beside, *asked, device);
-  } else if (runs.laws().size() == 1 && device.is_ideal()) {
+    slips = asked_for(runs, beside, *asked);
+  } else if (runs.laws().size() == 1 && runs.is_ideal()) {
     slips = with_reasons(runs.decomposed(beside, runs.plan(SlipLaw::velocity_free)), "");
   } else {
-    slips = SlipChooser(runs, beside, choices, device).chosen();
+    slips = SlipChooser(runs, beside, choices).chosen();
     // The damping beside them was chosen over the band alone, while all slips hold. Where the runs with it keep to the
     // tolerance too, it stays.
-    if (beside.faithful && !device.is_ideal() && !is_within(slips.error, choices.tolerance)) {
-      const Candidate other = choose_beside_slips(c, choices, device, runs);
-      if (!is_lost_over_box(c, other, choices, device)) {
-        slips = SlipChooser(runs, other, choices, device).chosen(other.faithful->least_error);
+    if (beside.faithful && !runs.is_ideal() && !is_within(slips.error, choices.tolerance)) {
+      const Candidate other = choose_beside_slips(c, choices, runs);
+      if (!is_lost_over_box(c, other, choices)) {
+        slips = SlipChooser(runs, other, choices).chosen(other.faithful->least_error);
         c.decomposition.choice() = other;
       }
     }
@@ -160,8 +158,7 @@ void choose_slip_law(Compilation& c, const SlipDecomposer& behind_slips, const C
   c.decomposition.slips = std::move(slips);
 }
 
-double damping_on_another_device(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices,
-                                 const PortDevice& device) {
+double damping_on_another_device(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices) {
   Compilation one = c;
   Candidate& beside = one.decomposition.choice();
   if (!beside.faithful) return beside.damping;
@@ -170,10 +167,10 @@ double damping_on_another_device(const Compilation& c, const SlipDecomposer& beh
   SlipLaw law = SlipLaw::velocity_free;
   for (const ComponentSplit* split : c.decomposition.slips.all())
     if (split->law != law) law = split->law;
-  SlipRuns runs(one, behind_slips, choices, device);
+  SlipRuns runs(one, behind_slips, choices);
   runs.keep_to(law);
   if (is_within(runs.run(beside, runs.plan(law)).merit.error(), choices.tolerance)) return beside.damping;
-  return choose_beside_slips(one, choices, device, runs).damping;
+  return choose_beside_slips(one, choices, runs).damping;
 }
 
 }  // namespace dashpot::compiler

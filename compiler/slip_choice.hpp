@@ -11,12 +11,10 @@ namespace dashpot::compiler {
 // reachable), of those certified with at most 1.05 times the least added damping among these, the one in which the
 // brake is largest on average; ties: the least noise in the motor. Without a device nothing has to be added, and where
 // nothing can be certified that is not asked.
-void choose_slip_law(Compilation& compilation, const SlipDecomposer& behind_slips, const Choices& choices,
-                     const PortDevice& device);
+void choose_slip_law(Compilation& compilation, const SlipDecomposer& behind_slips, const Choices& choices);
 
-// The same on another device, with the chosen state input and the law that `c` has behind its slips: the damping beside
-// them [N·s/m] that `faithful` takes there.
-double damping_on_another_device(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices,
-                                 const PortDevice& device);
+// The same on another device, that of `c`, with the chosen state input and the law that it has behind its slips: the
+// damping beside them [N·s/m] that `faithful` takes there.
+double damping_on_another_device(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices);
 
 }  // namespace dashpot::compiler

@@ -18,14 +18,13 @@ constexpr double gap_spread = 1 + 1e-3;  // by which the gap at another damping 
 
 }  // namespace
 
-SlipRuns::SlipRuns(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices,
-                   const PortDevice& device)
+SlipRuns::SlipRuns(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices)
     : c_(c),
       choices_(choices),
-      device_(device),
-      at_tool_(device.at_tool()),
+      device_(c.port),
+      at_tool_(c.port.at_tool()),
       behind_slips_(behind_slips),
-      loop_(sampled_loop(device, 1 / c.rate)),
+      loop_(sampled_loop(c.port, 1 / c.rate)),
       gain_(estimate_gain(loop_).value_or(std::numeric_limits<double>::infinity())) {
   for (const SlipLaw law : laws_to_choose_from) {
     const SlipDecomposition slips = decomposed(chosen_beside(), plan(law));

@@ -25,13 +25,14 @@ struct SlipOption {
 class SlipRuns {
  public:
   // In: a network with slips and what is chosen for what reaches ground without one. All outlive this.
-  SlipRuns(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices, const PortDevice& device);
+  SlipRuns(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices);
 
   SlipPlan plan(SlipLaw law, double excess = 1) const { return {law, excess, gain_}; }
   // velocity_free first, then the others that some part can have.
   const std::vector<SlipLaw>& laws() const { return laws_; }
   // Restricts laws() to this one.
   void keep_to(SlipLaw law) { laws_ = {law}; }
+  bool is_ideal() const { return device_.is_ideal(); }
   const SlipTrial& trial() const { return *trial_; }
   const Candidate& chosen_beside() const { return c_.decomposition.choice(); }
 

@@ -62,7 +62,7 @@ struct Scan {
 Scan scanned(const Compilation& c, double allowed, int steps) {
   const Choices choices = with_names({}, true);
   const SlipDecomposer behind_slips(c.network, c.form, c.port.reference_frequency());
-  SlipRuns runs(c, behind_slips, choices, c.port);
+  SlipRuns runs(c, behind_slips, choices);
   CandidateSettler settler(c.network, c.form, c.decomposition, choices, c.port, c.rate);
   struct Option {
     double error, added, mean;

@@ -58,7 +58,7 @@ compiler::Compilation compiled(const compiler::Network& network, const compiler:
   const auto decomposition = compiler::decompose(network, result.form, behind_slips, choices, result.port, diagnostics);
   if (!decomposition) throw std::runtime_error(compiler::render_text(diagnostics));
   result.decomposition = *decomposition;
-  if (result.form.has_slips()) compiler::choose_slip_law(result, behind_slips, choices, result.port);
+  if (result.form.has_slips()) compiler::choose_slip_law(result, behind_slips, choices);
   result.law = compiler::without_unread_locals(
       compiler::discretise(result.network, result.form, result.decomposition, choices, result.rate));
   return result;

@@ -35,6 +35,8 @@ bool is_compared(const Candidate& candidate) {
   return candidate.name == "paper" || candidate.name == "velocity-free" || candidate.name == "virtual";
 }
 
+bool is_faithful(const Compilation& c) { return c.decomposition.choice().name == "faithful"; }
+
 // How `faithful` moves while the values that the device file assumes are varied; `gap` of jitter as found for the
 // choice.
 std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present, const SlipDecomposer& behind_slips,
@@ -50,7 +52,7 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
     CandidateSettler settler(present, c.form, c.decomposition, choices, port, c.rate);
     settler.assume_jitter_gap(gap);
     settler.settle(candidate);
-    if (has_tunables(c.network)) choose_over_box(c.network, c.form, again.decomposition, choices, port, c.rate);
+    choose_over_box(c.network, c.form, again.decomposition, choices, port, c.rate);
     return c.form.has_slips() ? damping_on_another_device(again, behind_slips, choices) : candidate.damping;
   };
   const std::vector<VariedDevice> devices = with_assumed_varied(*c.device);
@@ -71,12 +73,10 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
 // the gap of jitter at what is chosen.
 double settle_choice(Compilation& c, const Network& present, const Choices& choices) {
   if (c.port.is_ideal()) return 1;
-  const bool is_tunable = has_tunables(c.network), is_faithful = c.decomposition.choice().name == "faithful";
-  if (is_tunable && !is_faithful) return 1;
   CandidateSettler settler(present, c.form, c.decomposition, choices, c.port, c.rate);
   settler.settle(c.decomposition.choice());
-  if (is_faithful) {
-    if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, c.port, c.rate);
+  if (is_faithful(c)) {
+    choose_over_box(c.network, c.form, c.decomposition, choices, c.port, c.rate);
     c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), c.network, choices);
   }
   return settler.last_jitter_gap();
@@ -84,16 +84,26 @@ double settle_choice(Compilation& c, const Network& present, const Choices& choi
 
 // What is compared with the choice, with what is chosen behind the slips.
 void settle_compared(Compilation& c, const Network& present, const Choices& choices) {
-  const bool is_faithful = c.decomposition.choice().name == "faithful";
-  if (c.port.is_ideal() || (has_tunables(c.network) && !is_faithful)) return;
+  if (c.port.is_ideal()) return;
   CandidateSettler settler(present, c.form, c.decomposition, choices, c.port, c.rate);
   for (Candidate& candidate : c.decomposition.candidates)
     if (&candidate != &c.decomposition.choice() && is_compared(candidate)) settler.settle(candidate);
-  if (is_faithful) return;
+  if (is_faithful(c)) return;
   Candidate choice = c.decomposition.choice();
   if (c.form.has_slips()) settler.settle(choice);
   choice.state_input = c.decomposition.choice().state_input;
   c.decomposition.reason = reason_for_input(choice, c.network, choices, false);
+}
+
+// Everything about the choice that the loop decides. With tunable parameters it stays as it was split, and nothing has
+// to be run, but where `faithful` looks for it.
+void settle(Compilation& c, const Network& present, const SlipDecomposer& behind_slips, const Choices& choices) {
+  if (has_tunables(c.network) && !is_faithful(c)) return;
+  const double gap = settle_choice(c, present, choices);
+  if (c.form.has_slips()) choose_slip_law(c, behind_slips, choices);
+  if (choices.compared != Compared::nothing) settle_compared(c, present, choices);
+  if (c.decomposition.choice().faithful && choices.compared == Compared::variations)
+    c.decomposition.moves = moves_of(c, present, behind_slips, choices, gap);
 }
 
 Beside what_is_beside_slips(const NormalForm& form) {
@@ -228,23 +238,16 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   result.port = std::move(*port);
   if (device && result.network.contact) warn_of_surface(*result.network.contact, result, diagnostics);
   times.enter("decomposition");
-  const bool is_tunable = has_tunables(result.network);
   const SlipDecomposer behind_slips(present, result.form, result.port.reference_frequency());
   std::optional<Decomposition> decomposition =
       decompose(present, result.form, behind_slips, choices, result.port, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
-  const double gap = settle_choice(result, present, choices);
-  // With tunable parameters nothing has to be run, but `faithful` leaves the slips another share of the brake.
-  const bool slips_are_as_split = is_tunable && result.decomposition.choice().name != "faithful";
-  if (result.form.has_slips() && !slips_are_as_split) choose_slip_law(result, behind_slips, choices);
-  if (choices.compared != Compared::nothing) settle_compared(result, present, choices);
-  if (result.decomposition.choice().faithful && choices.compared == Compared::variations)
-    result.decomposition.moves = moves_of(result, present, behind_slips, choices, gap);
+  settle(result, present, behind_slips, choices);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
   times.enter("discretisation");
   warn_about_rate_and_scalar(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
-  if (is_tunable) {
+  if (has_tunables(result.network)) {
     result.decomposition.reason = "position driven, so that a change of parameters injects no energy";
     std::optional<UpdateLaw> law = discretise_tunable(result.network, result.form, result.decomposition, choices,
                                                       result.rate, result.port, diagnostics);

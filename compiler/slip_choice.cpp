@@ -127,7 +127,7 @@ SlipDecomposition asked_for(SlipRuns& runs, const Candidate& beside, SlipLaw law
 
 // Whether tunable parameters cost another damping beside the slips the certificate that the present one has.
 bool is_lost_over_box(const Compilation& c, const Candidate& other, const Choices& choices) {
-  if (!has_tunables(c.network) || c.decomposition.choice().certified != true) return false;
+  if (c.decomposition.choice().certified != true) return false;
   Decomposition changed = c.decomposition;
   changed.choice() = other;
   return !is_certified_over_box(c.network, c.form, changed, choices, c.port, c.rate);

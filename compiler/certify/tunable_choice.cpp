@@ -70,6 +70,7 @@ class BoxChoice {
 
 void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
                      const Choices& choices, const PortDevice& port, double rate) {
+  if (!has_tunables(network)) return;
   constexpr int halvings = 3;  // of the way to the next larger damping that was tried
   constexpr double none = std::numeric_limits<double>::infinity();
   constexpr double same = 1e-6;  // relative: one damping
@@ -106,6 +107,7 @@ void choose_over_box(const Network& network, const NormalForm& form, Decompositi
 
 bool is_certified_over_box(const Network& network, const NormalForm& form, const Decomposition& decomposition,
                            const Choices& choices, const PortDevice& port, double rate) {
+  if (!has_tunables(network)) return true;
   const Candidate& choice = decomposition.choice();
   const auto weighed = BoxChoice(network, form, decomposition, choices, port, rate).weighed(choice, choice.damping);
   return weighed && weighed->option.certified;

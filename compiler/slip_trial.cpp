@@ -8,6 +8,7 @@
 #include <dashpot/brake_coil.hpp>
 #include <dashpot/estimators/any_estimator.hpp>
 #include <deque>
+#include <functional>
 #include <numbers>
 
 #include "certify/convex_search.hpp"
@@ -49,21 +50,6 @@ class AnyEvaluation {
   std::optional<Evaluation<float>> narrow_;
 };
 
-// All that a law in which the motor makes everything is felt to be.
-std::vector<double> whole_force(const UpdateLaw& law, const std::vector<double>& positions, double at) {
-  AnyEvaluation run(law);
-  run.reset(at);
-  std::vector<double> forces;
-  double last = at;
-  for (const double position : positions) {
-    const double velocity = (position - last) / law.sample_period;
-    const command<double> now = run.step(position, velocity);
-    forces.push_back(now.force + now.damping * velocity);
-    last = position;
-  }
-  return forces;
-}
-
 double largest_size(const std::vector<double>& values) {
   double largest = 0;
   for (const double value : values) largest = std::max(largest, std::abs(value));
@@ -76,22 +62,15 @@ double root_mean_square(const std::vector<double>& values) {
   return values.empty() ? 0 : std::sqrt(sum / double(values.size()));
 }
 
-TrialMotion sine(double at, double amplitude, double frequency, double period, int instants) {
+// `shape` of a sine.
+template <class Shape>
+std::vector<double> to_and_fro(double at, double amplitude, double frequency, double period, int instants,
+                               Shape shape) {
   const double samples = std::min(most_samples, most_periods / (frequency * period));
-  TrialMotion motion;
+  std::vector<double> positions;
   for (int i = 1; i <= int(samples) * instants; ++i)
-    motion.position.push_back(at + amplitude * std::sin(2 * pi * frequency * i * period / instants));
-  return motion;
-}
-
-// To and fro at one speed.
-TrialMotion drag(double at, double amplitude, double frequency, double period, int instants) {
-  const double samples = std::min(most_samples, most_periods / (frequency * period));
-  TrialMotion motion;
-  for (int i = 1; i <= int(samples) * instants; ++i)
-    motion.position.push_back(at +
-                              amplitude * 2 / pi * std::asin(std::sin(2 * pi * frequency * i * period / instants)));
-  return motion;
+    positions.push_back(at + amplitude * shape(std::sin(2 * pi * frequency * i * period / instants)));
+  return positions;
 }
 
 // Total stiffness of all elements at a frequency: no slip carries more than this times the tool's displacement.
@@ -263,7 +242,7 @@ double displacement_at_yield(const Network& network, const UpdateLaw& coarse, do
   const auto run = [&](double amplitude) {
     std::vector<double> positions;
     for (int i = 1; i <= samples; ++i) positions.push_back(surface + amplitude * std::sin(pi / 2 * i / samples));
-    return whole_force(coarse, positions, surface);
+    return felt_on_ideal(coarse, positions, surface).weak;
   };
   const double stuck = stuck_amplitude(network, 2 * pi * frequency);
   const std::vector<double> linear = run(stuck);
@@ -299,18 +278,19 @@ SlipTrial::SlipTrial(const Network& network, const UpdateLaw& coarse, const Upda
     const double yield = displacement_at_yield(network, coarse, frequency);
     for (const double share : around_yield) {
       const double way = way_of_tool(network, share * yield);
-      motions_.push_back(sine(at_, way, frequency, period, instants));
-      motions_.back().name = fmt::format("a sine of {:.3g} Hz and ±{:.3g} {}", frequency, way, unit);
+      motions_.push_back({fmt::format("a sine of {:.3g} Hz and ±{:.3g} {}", frequency, way, unit),
+                          to_and_fro(at_, way, frequency, period, instants, std::identity())});
     }
   }
   const double middle = std::sqrt(low * high);
   const double way = way_of_tool(network, around_yield[2] * displacement_at_yield(network, coarse, middle));
-  motions_.push_back(drag(at_, way, middle, period, instants));
-  motions_.back().name =
-      fmt::format("a drag to and fro at {:.3g} {}/s over ±{:.3g} {}", 4 * way * middle, unit, way, unit);
+  const auto at_one_speed = [](double sine) { return std::asin(sine); };
+  motions_.push_back(
+      {fmt::format("a drag to and fro at {:.3g} {}/s over ±{:.3g} {}", 4 * way * middle, unit, way, unit),
+       to_and_fro(at_, way * 2 / pi, middle, period, instants, at_one_speed)});
   for (const TrialMotion& motion : motions_) {
     if (!device.is_ideal()) sensed_.push_back(sensed(motion, at_, device, instants, period));
-    std::vector<double> force = whole_force(fine, motion.position, at_);
+    std::vector<double> force = felt_on_ideal(fine, motion.position, at_).weak;
     const double largest = largest_size(force), rms = root_mean_square(force);
     forces_.push_back({std::move(force), largest, rms});
   }

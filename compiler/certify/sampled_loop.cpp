@@ -18,9 +18,8 @@ Rational share_at_speed(const SampledLoop& loop) {
 SampledLoop sampled_loop(const PortDevice& device, double sample_period) {
   SampledLoop loop;
   loop.sample_period = sample_period;
-  if (device.is_ideal()) return loop;
   const device_description& joint = device.description();
-  loop.has_device = true;
+  loop.has_device = !device.is_ideal();
   loop.jitter = joint.loop.jitter;
   loop.delay_samples = joint.loop.delay_samples;
   loop.write_earliest = joint.loop.write_earliest;

@@ -115,13 +115,11 @@ std::string state_name(const Variable& state, std::size_t place) {
 }
 
 InputRange input_range(const PortDevice& port) {
-  const InputRange range = {10, 100};
-  if (port.is_ideal()) return range;
   const encoder_description& encoder = port.description().encoder;
   const double scale = port.at_tool().position_scale();
   const double reach = std::max(std::abs(encoder.range_low), std::abs(encoder.range_high)) * scale;
   const double speed = encoder.max_speed * scale;
-  return {reach > 0 ? reach : range.position, speed > 0 ? speed : range.velocity};
+  return {reach > 0 ? reach : 10, speed > 0 ? speed : 100};
 }
 
 std::optional<StateBox> state_box(const UpdateLaw& law, const InputRange& range) {

@@ -47,6 +47,11 @@ std::optional<PortDevice> PortDevice::of(const Device& device, const Network& ne
   return std::nullopt;
 }
 
+const device_description& PortDevice::description() const {
+  static const device_description ideal;
+  return device_ ? device_->description : ideal;
+}
+
 PortDevice PortDevice::behind_lever(double ratio) const {
   PortDevice port = *this;
   port.damping_scale_ /= ratio * ratio;
@@ -68,64 +73,52 @@ PortDevice PortDevice::replaced_by(const Device& device) const {
 
 std::optional<double> PortDevice::max_damping() const {
   if (is_ideal()) return std::nullopt;
-  const brake_description& brake = device_->description.brake;
+  const brake_description& brake = description().brake;
   return brake.kind == brake_kind::none ? 0 : brake.max_damping * damping_scale_;
 }
 
-double PortDevice::tolerance() const { return is_ideal() ? 0 : device_->description.brake.tolerance; }
+double PortDevice::tolerance() const { return description().brake.tolerance; }
 
 double PortDevice::assured_share() const {
-  if (is_ideal()) return 1;
-  const double fades_at = device_->description.brake.critical_speed, fastest = device_->description.encoder.max_speed;
+  const double fades_at = description().brake.critical_speed, fastest = description().encoder.max_speed;
   if (fades_at == 0) return 1 - tolerance();
   return fastest == 0 ? 0 : (1 - tolerance()) / (1 + fastest / fades_at * (fastest / fades_at));
 }
 
-double PortDevice::residual_damping() const {
-  return is_ideal() ? 0 : device_->description.brake.residual_damping * damping_scale_;
-}
+double PortDevice::residual_damping() const { return description().brake.residual_damping * damping_scale_; }
 
-double PortDevice::band_low() const {
-  return 2 * pi * (is_ideal() ? loop_description{} : device_->description.loop).band_low;
-}
-double PortDevice::band_high() const {
-  return 2 * pi * (is_ideal() ? loop_description{} : device_->description.loop).band_high;
-}
+double PortDevice::band_low() const { return 2 * pi * description().loop.band_low; }
+double PortDevice::band_high() const { return 2 * pi * description().loop.band_high; }
 double PortDevice::largest_estimator_gain() const {
   if (is_ideal()) return 1;
   if (divides_by_varying_interval()) {
-    const double shortest = sample_period() - device_->description.loop.jitter;
+    const double shortest = sample_period() - description().loop.jitter;
     return shortest > 0 ? sample_period() / shortest : std::numeric_limits<double>::infinity();
   }
   return estimator_is_linear() ? estimator().max_gain() : std::numeric_limits<double>::infinity();
 }
 
-double PortDevice::sample_period() const {
-  return (is_ideal() ? loop_description{} : device_->description.loop).sample_period;
-}
+double PortDevice::sample_period() const { return description().loop.sample_period; }
 double PortDevice::longest_hold() const {
-  if (is_ideal()) return sample_period();
-  const loop_description& loop = device_->description.loop;
+  const loop_description& loop = description().loop;
   return loop.sample_period + loop.jitter + (loop.write_latest - loop.write_earliest);
 }
-double PortDevice::amplifier_lag() const { return is_ideal() ? 0 : device_->description.motor.amplifier_lag; }
-double PortDevice::coil_lag() const { return is_ideal() ? 0 : device_->description.brake.coil_lag; }
+double PortDevice::amplifier_lag() const { return description().motor.amplifier_lag; }
+double PortDevice::coil_lag() const { return description().brake.coil_lag; }
 
 double PortDevice::coil_slew() const {
-  if (is_ideal()) return 0;
-  const brake_description& brake = device_->description.brake;
+  const brake_description& brake = description().brake;
   return brake.slew * std::sqrt(brake.damping_per_current_squared * damping_scale_);
 }
 
 std::string_view PortDevice::estimator_name() const {
-  return is_ideal() ? "exact" : name_of(device_->description.velocity.estimator);
+  return is_ideal() ? "exact" : name_of(description().velocity.estimator);
 }
 
 // What an estimate made at a sample acts on is the hold that follows, one period after the last that it has seen.
 std::optional<unsigned> PortDevice::estimate_memory() const {
-  if (is_ideal()) return 1;
-  const velocity_description& velocity = device_->description.velocity;
-  const loop_description& loop = device_->description.loop;
+  const velocity_description& velocity = description().velocity;
+  const loop_description& loop = description().loop;
   const unsigned delay = loop.delay_samples + (loop.write_latest > 0 ? 1 : 0);
   switch (velocity.estimator) {
     case estimator_kind::backward_difference:
@@ -136,39 +129,34 @@ std::optional<unsigned> PortDevice::estimate_memory() const {
   }
 }
 
-double PortDevice::encoder_step() const { return is_ideal() ? 0 : device_->description.encoder.step * position_scale_; }
+double PortDevice::encoder_step() const { return description().encoder.step * position_scale_; }
 
-double PortDevice::reference_frequency() const {
-  return is_ideal() ? 0 : 2 * pi * device_->description.loop.reference_frequency;
-}
+double PortDevice::reference_frequency() const { return 2 * pi * description().loop.reference_frequency; }
 
 PortDevice::Estimator PortDevice::estimator() const {
-  const device_description& d = device_->description;
+  const device_description& d = description();
   return Estimator(d.velocity, d.loop.sample_period, d.encoder.step);
 }
 
 bool PortDevice::divides_by_varying_interval() const {
-  if (is_ideal()) return false;
-  const device_description& d = device_->description;
+  const device_description& d = description();
   return d.velocity.estimator == estimator_kind::interval_difference && d.loop.jitter > 0;
 }
 
-bool PortDevice::estimator_is_linear() const {
-  return is_ideal() || is_linear(device_->description.velocity.estimator);
-}
+bool PortDevice::estimator_is_linear() const { return is_linear(description().velocity.estimator); }
 
 std::complex<double> PortDevice::velocity_response(double angular_frequency) const {
   if (is_ideal()) return 1;
-  const velocity_description& velocity = device_->description.velocity;
+  const velocity_description& velocity = description().velocity;
   if (velocity.estimator == estimator_kind::sensor)
     return velocity.bandwidth > 0 ? 1.0 / std::complex(1.0, angular_frequency / (2 * pi * velocity.bandwidth)) : 1.0;
   if (!estimator_is_linear()) return std::polar(1.0, -angular_frequency * estimator().delay());
-  return dashpot::velocity_response(estimator().transfer(), angular_frequency, device_->description.loop.sample_period);
+  return dashpot::velocity_response(estimator().transfer(), angular_frequency, sample_period());
 }
 
 std::complex<double> PortDevice::motor_response(double angular_frequency) const {
   if (is_ideal()) return 1;
-  const device_description& d = device_->description;
+  const device_description& d = description();
   const double delay = d.loop.delay_samples * d.loop.sample_period + (d.loop.write_earliest + d.loop.write_latest) / 2;
   return std::polar(1.0, -angular_frequency * delay) / std::complex(1.0, angular_frequency * d.motor.amplifier_lag);
 }
@@ -181,7 +169,7 @@ bool PortDevice::estimate_sums_to_displacement() const {
 
 std::optional<double> PortDevice::velocity_noise() const {
   if (is_ideal()) return 0;
-  const device_description& d = device_->description;
+  const device_description& d = description();
   if (d.velocity.estimator == estimator_kind::sensor) return d.velocity.noise * position_scale_;
   if (!estimator_is_linear()) return std::nullopt;
   const double quantum = d.encoder.step / std::sqrt(12.0);

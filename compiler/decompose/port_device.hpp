@@ -24,10 +24,10 @@ class PortDevice {
   PortDevice replaced_by(const Device& device) const;
 
   bool is_ideal() const { return !device_; }
-  const device_description& description() const { return device_->description; }  // of a device that is not ideal
-  double damping_scale() const { return damping_scale_; }                         // from the joint to the tool
-  double position_scale() const { return position_scale_; }                       // likewise
-  double steepest() const { return steepest_; }  // w′ of a static curve, at most; else 1
+  const device_description& description() const;             // nothing is late or limited in that of an ideal one
+  double damping_scale() const { return damping_scale_; }    // from the joint to the tool
+  double position_scale() const { return position_scale_; }  // likewise
+  double steepest() const { return steepest_; }              // w′ of a static curve, at most; else 1
   // A damping at the tool as a law behind the static curve sees it, where that is steepest [N·s/m].
   double behind_curve(double damping) const { return damping / (steepest_ * steepest_); }
   std::optional<double> max_damping() const;  // at the tool [N·s/m]; empty: any

@@ -563,12 +563,10 @@ std::vector<MendedDevice> mended(const Device& device) {
        [](device_description& d) { d.velocity.cutoff *= 2; });
   for (MendedDevice& other : all) other.is_of_estimator = true;
   mend(is.encoder.step > 0, "with a 16th of the encoder's step", [](device_description& d) { d.encoder.step /= 16; });
-  mend(is.loop.delay_samples > 0, "without the loop's delay", [](device_description& d) { d.loop.delay_samples = 0; });
-  mend(is.loop.write_latest > 0, "with commands that act at once",
-       [](device_description& d) { d.loop.write_earliest = d.loop.write_latest = 0; });
-  mend(is.motor.slew > 0, "without the motor's slew", [](device_description& d) { d.motor.slew = 0; });
-  mend(is.motor.amplifier_lag > 0, "without the amplifier's lag",
-       [](device_description& d) { d.motor.amplifier_lag = 0; });
+  mend(is.loop.delay_samples > 0, "without the loop's delay", loop_delay.leave_out);
+  mend(is.loop.write_latest > 0, "with commands that act at once", write_delay.leave_out);
+  mend(is.motor.slew > 0, "without the motor's slew", limited_slew.leave_out);
+  mend(is.motor.amplifier_lag > 0, "without the amplifier's lag", amplifier_lag.leave_out);
   mend(is.brake.coil_lag > 0, "without the lag of the brake's coil",
        [](device_description& d) { d.brake.coil_lag = 0; });
   mend(is.brake.tolerance > 0, "without the brake's tolerance", [](device_description& d) { d.brake.tolerance = 0; });

@@ -53,15 +53,22 @@ NodalEquations nodal_equations(const Part& part, const Network& network) {
   return equations;
 }
 
+// All nodes, by what elements of one kind tie together.
+template <class ValueOf>
+DisjointSets tied_by(const Part& part, const Network& network, ValueOf value_of) {
+  DisjointSets sets(network.nodes.size());
+  for (std::size_t element : part.elements)
+    if (value_of(network.elements[element].law) > 0)
+      sets.unite(network.elements[element].a, network.elements[element].b);
+  return sets;
+}
+
 // Clusters of internal nodes that elements of one kind tie together but not to port or held node: each is one
 // direction in which the matrix of that kind is singular.
 template <class ValueOf>
 std::size_t floating_clusters(const Part& part, const Network& network, ValueOf value_of) {
-  DisjointSets sets(network.nodes.size());
+  DisjointSets sets = tied_by(part, network, value_of);
   sets.unite(part.port, part.held);
-  for (std::size_t element : part.elements)
-    if (value_of(network.elements[element].law) > 0)
-      sets.unite(network.elements[element].a, network.elements[element].b);
   std::size_t clusters = 0;
   for (NodeIndex node : part.internal) clusters += sets.find(node) == node && sets.find(part.port) != node ? 1 : 0;
   return clusters;
@@ -70,10 +77,7 @@ std::size_t floating_clusters(const Part& part, const Network& network, ValueOf 
 // Whether elements of one kind alone lead from the port to the held node.
 template <class ValueOf>
 bool leads_through(const Part& part, const Network& network, ValueOf value_of) {
-  DisjointSets sets(network.nodes.size());
-  for (std::size_t element : part.elements)
-    if (value_of(network.elements[element].law) > 0)
-      sets.unite(network.elements[element].a, network.elements[element].b);
+  const DisjointSets sets = tied_by(part, network, value_of);
   return sets.find(part.port) == sets.find(part.held);
 }
 

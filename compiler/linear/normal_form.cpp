@@ -28,29 +28,23 @@ NormalTree leaf(const Network& network, std::size_t index) {
   return part;
 }
 
-LinearForm in_series(const std::vector<const LinearForm*>& forms) {
-  LinearForm mobility;
-  for (const LinearForm* form : forms) mobility = in_parallel(std::move(mobility), reciprocal(*form));
-  return reciprocal(mobility);
-}
-
 void name_origins(LinearForm& form, const std::vector<std::size_t>& elements) {
   for (Mode& mode : form.modes) mode.elements = elements;
   if (form.static_stiffness > 0) form.static_elements = elements;
   if (form.feedthrough_damping > 0) form.feedthrough_elements = elements;
 }
 
+// In parallel the forms add up, in series their reciprocals.
 NormalTree merged_blocks(NormalTree::Kind kind, const std::vector<NormalTree>& blocks) {
   if (blocks.size() == 1) return blocks.front();
+  const bool in_series = kind == NormalTree::Kind::series;
   NormalTree all{NormalTree::Kind::block, {}, 0, {}, {}};
-  std::vector<const LinearForm*> forms;
   for (const NormalTree& block : blocks) {
-    forms.push_back(&block.form);
     unite(all.elements, block.elements);
-    if (kind == NormalTree::Kind::parallel) all.form = in_parallel(std::move(all.form), block.form);
+    all.form = in_parallel(std::move(all.form), in_series ? reciprocal(block.form) : block.form);
   }
-  if (kind == NormalTree::Kind::series) {
-    all.form = in_series(forms);
+  if (in_series) {
+    all.form = reciprocal(all.form);
     name_origins(all.form, all.elements);
   }
   return all;
@@ -155,10 +149,7 @@ Network linear_part(const Network& network, const NormalForm& form) {
 }
 
 NormalTree whole_tree(const NormalForm& form, const Network& network) {
-  NormalTree block{NormalTree::Kind::block, form.linear, 0, {}, {}};
-  const Network linear = linear_part(network, form);
-  for (std::size_t i = 0; i < linear.elements.size(); ++i)
-    if (linear.elements[i].has_effect) block.elements.push_back(i);
+  NormalTree block{NormalTree::Kind::block, form.linear, 0, effective_elements(linear_part(network, form)), {}};
   if (block.elements.empty() && form.components.size() == 1) return form.components.front();
   NormalTree whole{NormalTree::Kind::parallel, {}, 0, {}, {}};
   if (!block.elements.empty()) whole.children.push_back(std::move(block));

@@ -34,11 +34,8 @@ bool are_small(const Network& network, std::size_t most_nodes, Diagnostics& diag
 }  // namespace
 
 Part largest_part(const Network& network) {
-  std::vector<std::size_t> elements;
-  for (std::size_t i = 0; i < network.elements.size(); ++i)
-    if (network.elements[i].has_effect) elements.push_back(i);
   Part largest;
-  for (Part& part : independent_parts(network, elements, tool, ground))
+  for (Part& part : independent_parts(network, effective_elements(network), tool, ground))
     if (part.internal.size() > largest.internal.size()) largest = std::move(part);
   return largest;
 }

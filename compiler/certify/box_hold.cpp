@@ -20,9 +20,7 @@ class Held : private BoxNumbers {
 
   BoxHold find(bool sheds) const {
     BoxHold hold;
-    const TunableBlock& block = tables_.blocks.front();
-    for (int i = block.first_part; i < block.first_part + block.part_count; ++i) {
-      const BlockPart& part = tables_.parts[static_cast<std::size_t>(i)];
+    for (const BlockPart& part : parts_of(tables_.blocks.front())) {
       hold.has_meshes = hold.has_meshes || part.kind == PartKind::mesh;
       if (part.kind == PartKind::relaxation) hold.relaxations.push_back(relaxation(part));
       if (part.kind != PartKind::spring) continue;
@@ -79,8 +77,7 @@ class Held : private BoxNumbers {
 
   double largest_yield(const TunableYield& yield) const {
     double weakest = infinite;
-    for (int i = yield.first_cut; i < yield.first_cut + yield.cut_count; ++i)
-      weakest = std::min(weakest, largest(number(tables_.cuts[static_cast<std::size_t>(i)])));
+    for (const int cut : cuts_of(yield)) weakest = std::min(weakest, largest(number(cut)));
     return std::max(weakest, yield.least);
   }
 

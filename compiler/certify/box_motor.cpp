@@ -63,12 +63,6 @@ class Box : private BoxNumbers {
  private:
   static BoxMotor nothing_for(std::string reason) { return {0, 0, 0, std::move(reason)}; }
 
-  template <class Visit>
-  void each_part(const TunableBlock& block, Visit visit) const {
-    for (int i = block.first_part; i < block.first_part + block.part_count; ++i)
-      visit(tables_.parts[static_cast<std::size_t>(i)]);
-  }
-
   BoxCut cut_of(const BlockPart& part) const {
     switch (part.kind) {
       case PartKind::damper: return {{}, number(part.damping)};
@@ -103,7 +97,7 @@ class Box : private BoxNumbers {
 
   BoxCut cut_of(const TunableBlock& block) const {
     BoxCut cut;
-    each_part(block, [&](const BlockPart& part) { cut = plus(cut, cut_of(part)); });
+    for (const BlockPart& part : parts_of(block)) cut = plus(cut, cut_of(part));
     return cut;
   }
 
@@ -121,7 +115,7 @@ class Box : private BoxNumbers {
 
   // As least_cut() of a tree, by what a cut asks for at the box's far corner.
   std::optional<BoxCut> least_cut(const TunableCoupling& coupling, int index) const {
-    const slip_node<double>& node = tables_.nodes[static_cast<std::size_t>(coupling.first_node + index)];
+    const slip_node<double>& node = node_of(coupling, index);
     if (node.kind == slip_part::slip) return std::nullopt;
     if (node.kind == slip_part::block) return bounded_cut(coupling.first_block + node.place);
     std::optional<BoxCut> least, sum = BoxCut{};
@@ -175,9 +169,8 @@ class Box : private BoxNumbers {
   // none of its nodes is between.
   Affine needed() const {
     BoxCut cut;
-    each_part(tables_.blocks.front(), [&](const BlockPart& part) {
+    for (const BlockPart& part : parts_of(tables_.blocks.front()))
       if (part.kind != PartKind::damper) cut = plus(cut, cut_of(part));
-    });
     for (const TunableCoupling& coupling : tables_.couplings) cut = plus(cut, least_cut(coupling, 0).value());
     for (const TunableGraph& graph : tables_.graphs) cut = plus(cut, least_cut(graph));
     const Rational margin = 1 + 64 * Rational(unit_roundoff(scalar_));  // of the numbers that set() works out
@@ -188,38 +181,34 @@ class Box : private BoxNumbers {
   // b∞: the dampers between tool and ground. A mesh's is between nothing and its dampers at the port.
   Affine feedthrough() const {
     Affine sum;
-    each_part(tables_.blocks.front(), [&](const BlockPart& part) {
+    for (const BlockPart& part : parts_of(tables_.blocks.front()))
       if (part.kind == PartKind::damper) sum = plus(sum, number(part.damping));
-    });
     return sum;
   }
   Affine of_meshes() const {
     Affine sum;
-    each_part(tables_.blocks.front(), [&](const BlockPart& part) {
+    for (const BlockPart& part : parts_of(tables_.blocks.front()))
       if (part.kind == PartKind::mesh) sum = plus(sum, cut_at_port(part).damping);
-    });
     return sum;
   }
   // Z(0) of what is no mesh.
   Affine zero_frequency() const {
     Affine sum = feedthrough();
-    each_part(tables_.blocks.front(), [&](const BlockPart& part) {
+    for (const BlockPart& part : parts_of(tables_.blocks.front()))
       if (part.kind == PartKind::relaxation) sum = plus(sum, number(part.damping));
-    });
     return sum;
   }
 
   bool has_meshes() const {
-    bool found = false;
-    each_part(tables_.blocks.front(), [&](const BlockPart& part) { found = found || part.kind == PartKind::mesh; });
-    return found;
+    return std::ranges::any_of(
+        parts_of(tables_.blocks.front()), [](PartKind kind) { return kind == PartKind::mesh; }, &BlockPart::kind);
   }
 
   // No regime has more b∞ than all dampers behind slips, and meshes theirs at the port.
   Rational largest_behind_slips() const {
     Rational sum = 0;
     for (std::size_t i = 1; tables_.head.slip_rule.takes_part && i < tables_.blocks.size(); ++i)
-      each_part(tables_.blocks[i], [&](const BlockPart& part) { sum += most(cut_of(part).damping); });
+      for (const BlockPart& part : parts_of(tables_.blocks[i])) sum += most(cut_of(part).damping);
     return sum;
   }
 
@@ -257,7 +246,7 @@ class Box : private BoxNumbers {
   // within a sample, as its inner nodes held fast would.
   Affine gain_of(const TunableBlock& block, bool with_dampers) const {
     Affine sum;
-    each_part(block, [&](const BlockPart& part) {
+    for (const BlockPart& part : parts_of(block)) {
       switch (part.kind) {
         case PartKind::spring: sum = plus(sum, stiffness(part.spring)); break;
         case PartKind::relaxation:
@@ -269,7 +258,7 @@ class Box : private BoxNumbers {
           sum = plus(plus(sum, cut.stiffness, 4), cut.damping, 2 / period_);
         }
       }
-    });
+    }
     return sum;
   }
 
@@ -285,8 +274,8 @@ class Box : private BoxNumbers {
     if (node.kind == slip_part::slip) {
       const TunableYield& yield = tables_.yields[static_cast<std::size_t>(coupling.first_slip + node.place)];
       std::optional<Rational> least_cut;
-      for (int i = yield.first_cut; i < yield.first_cut + yield.cut_count; ++i) {
-        const Rational cut = least(number(tables_.cuts[static_cast<std::size_t>(i)]));
+      for (const int index_of_cut : cuts_of(yield)) {
+        const Rational cut = least(number(index_of_cut));
         if (!least_cut || cut < *least_cut) least_cut = cut;
       }
       return least_cut;

@@ -1,6 +1,7 @@
 // The numbers of a law with tunable parameters as affine functions of them, in rational numbers.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "certify/motor_constants.hpp"
@@ -21,6 +22,14 @@ class BoxNumbers {
 
   Affine number(int index) const;
   Affine stiffness(int spring) const { return number(tables_.springs[static_cast<std::size_t>(spring)]); }
+
+  std::span<const BlockPart> parts_of(const TunableBlock& block) const {
+    return std::span(tables_.parts).subspan(std::size_t(block.first_part), std::size_t(block.part_count));
+  }
+  // What its slip may hold, of which the least counts.
+  std::span<const int> cuts_of(const TunableYield& yield) const {
+    return std::span(tables_.cuts).subspan(std::size_t(yield.first_cut), std::size_t(yield.cut_count));
+  }
 
   // Over the box.
   Rational most(const Affine& f) const { return extreme(f, true); }

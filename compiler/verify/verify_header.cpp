@@ -90,9 +90,7 @@ class Verification {
   void compare_with_certificate() { compare_constants(certificate_.constants, header_, diagnostics_); }
 
   void recompute_constants(const Network& network) {
-    const LawFacts facts = {*certificate_.choices.rate, certificate_.choices.scheme, certificate_.choices.scalar,
-                            *certificate_.choices.state_input, certificate_.damping};
-    const auto expected = reference_constants(reference_form(network), facts);
+    const auto expected = reference_constants(reference_form(network), facts_of(certificate_));
     for (const auto& [kind, places] : groups_) {
       if (kind == "damping" || kind == "added_damping") continue;  // of the bounds
       if (is_of_motor_reach(kind)) continue;                       // of the device, with the code around them
@@ -117,7 +115,8 @@ class Verification {
     const bool is_too_small = is_correctly_rounded(0, Reference(certificate_.damping), header_.scalar);
     const double damping = is_too_small ? 0 : certificate_.damping;
     const double alone = brake_command({}, loop, damping, header_.scalar);
-    const PassivityBound bound = stated_bound(motor_of(groups_), loop, assured_damping(loop, alone));
+    const MotorConstants motor = motor_of(groups_);
+    const PassivityBound bound = stated_bound(motor, loop, assured_damping(loop, alone));
     const double expected = brake_command(bound, loop, damping, header_.scalar);
     expect("brake command", brake, expected);
     const double of_it = header_.scalar == ScalarType::float64 ? expected - alone : double(float(expected - alone));
@@ -130,7 +129,6 @@ class Verification {
       diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed bound", "proof");
     expect("brake command", certificate_.brake_command, expected);
     expect("added damping", certificate_.added_damping, of_it);
-    const MotorConstants motor = motor_of(groups_);
     if (!agrees(certificate_.quantisation_gain, quantisation_gain(motor, loop), reference_gain(motor, loop),
                 header_.scalar))
       diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed gain", "quantisation");
@@ -165,10 +163,6 @@ void recompute_map(const HeaderConstants& header, const Compilation& compiled, D
     else compare(*found, *expected, header.scalar, diagnostics);
   }
 }
-
-}  // namespace
-
-namespace {
 
 // Of what belongs to no port: how the brake's commands are added up, and the facts of the loop.
 void look_at_sum(const HeaderConstant& constant, const Compilation& compiled, const LawFacts& facts,

@@ -13,15 +13,6 @@
 namespace dashpot::compiler {
 namespace {
 
-// If no other law is available the reason says why.
-SlipDecomposition with_reasons(SlipDecomposition slips, const std::string& reason) {
-  for (std::vector<ComponentSplit> SlipDecomposition::*parts :
-       {&SlipDecomposition::components, &SlipDecomposition::networks})
-    for (ComponentSplit& split : slips.*parts)
-      if (split.reason.empty()) split.reason = reason.empty() ? split.offers.back().refusal : reason;
-  return slips;
-}
-
 // The law behind slips, for one damping beside them.
 class SlipChooser {
  public:

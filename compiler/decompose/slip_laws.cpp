@@ -122,10 +122,6 @@ SlipDecomposition SlipDecomposer::decomposed(const Candidate& linear_part, const
 
 namespace {
 
-void say_asked_for(ComponentSplit& split) {
-  if (split.reason.empty()) split.reason = "asked for";
-}
-
 // False, with a diagnostic, where a law was asked for that no part can have.
 bool has_what_was_asked_for(const Network& network, const SlipDecomposition& slips, SlipLaw asked,
                             Diagnostics& diagnostics) {
@@ -160,6 +156,13 @@ void list_what_can_be_asked_for(Decomposition& result) {
 
 }  // namespace
 
+SlipDecomposition with_reasons(SlipDecomposition slips, const std::string& reason) {
+  for (std::vector<ComponentSplit>* parts : {&slips.components, &slips.networks})
+    for (ComponentSplit& split : *parts)
+      if (split.reason.empty()) split.reason = reason.empty() ? split.offers.back().refusal : reason;
+  return slips;
+}
+
 ExtremeRuns extreme_runs(const std::vector<SlipRunError>& runs) {
   const auto [mildest, worst] = std::minmax_element(
       runs.begin(), runs.end(), [](const SlipRunError& a, const SlipRunError& b) { return a.error < b.error; });
@@ -173,9 +176,8 @@ std::optional<Decomposition> decompose(const Network& network, const NormalForm&
       decompose(linear_part(network, form), form.linear, choices, device, diagnostics);
   if (!result || !form.has_slips()) return result;
   const SlipLaw law = slip_law_asked_for(choices).value_or(SlipLaw::velocity_free);
-  result->slips = behind_slips.decomposed(result->choice(), {law, 1, device.largest_estimator_gain()}, device);
-  for (ComponentSplit& split : result->slips.components) say_asked_for(split);
-  for (ComponentSplit& split : result->slips.networks) say_asked_for(split);
+  result->slips = with_reasons(
+      behind_slips.decomposed(result->choice(), {law, 1, device.largest_estimator_gain()}, device), "asked for");
   if (!has_what_was_asked_for(network, result->slips, law, diagnostics)) return std::nullopt;
   list_what_can_be_asked_for(*result);
   return result;

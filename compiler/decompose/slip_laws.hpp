@@ -64,6 +64,9 @@ class SlipDecomposer {
   std::vector<InNoTree> networks_;
 };
 
+// The parts that have no other reason for their law get this one; if it is empty, why there is no other law.
+SlipDecomposition with_reasons(SlipDecomposition slips, const std::string& reason);
+
 // Both: what reaches ground without a slip, then the rest by the law asked for, velocity-free where a run has to
 // decide. Warns and refuses as decompose() of linear networks.
 std::optional<Decomposition> decompose(const Network& network, const NormalForm& form,

@@ -110,18 +110,12 @@ std::optional<EstimateMemory> estimate_memory(const SampledLoop& loop) {
   for (const EstimatorPole& pole : factors->poles) slowest = std::max(slowest, std::abs(pole.pole));
   const double samples = slowest > 0 ? std::log(1e-15) / std::log(slowest) : 0;
   if (!(samples < longest)) return std::nullopt;
-  std::vector<Complex> state(factors->poles.size()), last(factors->poles.size());
+  AveragedPulse pulse(*factors);
   EstimateMemory memory{0, 0};
   for (std::size_t j = 0; j < factors->taps.size() + std::size_t(samples); ++j) {
-    Complex value = j < factors->taps.size() ? factors->taps[j] : 0.0;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-      const EstimatorPole& pole = factors->poles[i];
-      const Complex driven = pole.has_zero() ? pole.gain * (value + last[i]) : value;
-      last[i] = value;
-      value = state[i] = pole.pole * state[i] + driven;
-    }
-    memory.gain += std::abs(value);
-    memory.age += double(j) * std::abs(value);
+    const double weight = std::abs(pulse.next());
+    memory.gain += weight;
+    memory.age += double(j) * weight;
   }
   return EstimateMemory{std::max(1.0, memory.gain * (1 + 1e-9)), memory.age * (1 + 1e-9)};
 }

@@ -29,6 +29,45 @@ struct EstimatorFactors {
   std::vector<EstimatorPole> poles;
 };
 
+// Ĝ's answer r_j to a unit pulse: the estimate of velocity is (r_j − r_{j−1})/T.
+class AveragedPulse {
+ public:
+  explicit AveragedPulse(const EstimatorFactors& estimator)
+      : estimator_(estimator), states_(estimator.poles.size()), inputs_(estimator.poles.size()) {}
+
+  std::complex<double> next() {
+    std::complex<double> value = place_ < estimator_.taps.size() ? estimator_.taps[place_] : 0;
+    ++place_;
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const EstimatorPole& pole = estimator_.poles[i];
+      const std::complex<double> input = pole.has_zero() ? pole.gain * (value + inputs_[i]) : value;
+      inputs_[i] = value;
+      value = states_[i] = pole.pole * states_[i] + input;
+    }
+    return value;
+  }
+
+  // Not below Σ|r_j| over all that is to come once the taps are over: 1/(1 − |p|) of each pole's state and input, which
+  // a zero takes twice.
+  double rest() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const EstimatorPole& pole = estimator_.poles[i];
+      const double size = std::abs(pole.pole);
+      const double input = pole.has_zero() ? std::abs(pole.gain) * (2 * sum + std::abs(inputs_[i])) : sum;
+      sum = (size * std::abs(states_[i]) + input) * (1 + size) / pole.norm_loss();
+    }
+    return sum;
+  }
+
+  bool is_over() const { return place_ > estimator_.taps.size() && rest() < 1e-15; }  // of r's sum, which is 1
+
+ private:
+  const EstimatorFactors& estimator_;
+  std::vector<std::complex<double>> states_, inputs_;
+  std::size_t place_ = 0;
+};
+
 // Empty for an estimator that is not linear in the positions it is given, and for one so fast that its recursion, as
 // rounded, no longer dies away. Of one that divides by the time that has passed: at a constant period.
 std::optional<EstimatorFactors> estimator_factors(const SampledLoop& loop);

@@ -8,47 +8,6 @@
 namespace dashpot::compiler {
 namespace {
 
-using Complex = std::complex<double>;
-
-// Ĝ's answer r_j to a unit pulse: the estimate of velocity is (r_j − r_{j−1})/T.
-class AveragedPulse {
- public:
-  explicit AveragedPulse(const EstimatorFactors& estimator)
-      : estimator_(estimator), states_(estimator.poles.size()), inputs_(estimator.poles.size()) {}
-
-  double next() {
-    Complex value = place_ < estimator_.taps.size() ? estimator_.taps[place_] : 0;
-    ++place_;
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-      const EstimatorPole& pole = estimator_.poles[i];
-      const Complex input = pole.has_zero() ? pole.gain * (value + inputs_[i]) : value;
-      inputs_[i] = value;
-      value = states_[i] = pole.pole * states_[i] + input;
-    }
-    return value.real();
-  }
-
-  // Not below Σ|r_j| over all that is to come once the taps are over: 1/(1 − |p|) of each pole's state and input, which
-  // a zero takes twice.
-  double rest() const {
-    double sum = 0;
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-      const EstimatorPole& pole = estimator_.poles[i];
-      const double size = std::abs(pole.pole);
-      const double input = pole.has_zero() ? std::abs(pole.gain) * (2 * sum + std::abs(inputs_[i])) : sum;
-      sum = (size * std::abs(states_[i]) + input) * (1 + size) / pole.norm_loss();
-    }
-    return sum;
-  }
-
-  bool is_over() const { return place_ > estimator_.taps.size() && rest() < 1e-15; }  // of r's sum, which is 1
-
- private:
-  const EstimatorFactors& estimator_;
-  std::vector<Complex> states_, inputs_;
-  std::size_t place_ = 0;
-};
-
 // The motor under q_0 = 1, then 0. A mode is G_{j+1} = x_j − α P_j with x = d q + (e/T) r, P_{j+1} = a P_j + x_j: the
 // differences that drive it, summed by parts, so that nothing cancels however slow it is.
 class MotorPulse {
@@ -98,11 +57,11 @@ double sum_of_pulse(const MotorConstants& motor, const SampledLoop& loop, const 
   MotorPulse pulse(motor, loop.sample_period);
   AveragedPulse averaged(estimator);
   const bool follows = motor.follows_estimate();
-  double sum = std::abs(pulse.next(1, follows ? averaged.next() : 0));
-  sum += std::abs(pulse.next(0, follows ? averaged.next() : 0));
+  double sum = std::abs(pulse.next(1, follows ? averaged.next().real() : 0));
+  sum += std::abs(pulse.next(0, follows ? averaged.next().real() : 0));
   for (std::size_t j = 0; follows && j < longest_pulse; ++j) {
     if (j % between_looks == 0 && averaged.is_over()) break;
-    sum += std::abs(pulse.next(0, averaged.next()));
+    sum += std::abs(pulse.next(0, averaged.next().real()));
   }
   return sum + pulse.to_come(follows ? averaged.rest() : 0);
 }

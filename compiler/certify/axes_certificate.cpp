@@ -69,13 +69,14 @@ Pair<double> weight_of(const axes::Arm& arm) {
   return arm.kind == axes::Kinematics::five_bar ? Pair<double>{near, near} : Pair<double>{near, far};
 }
 
+double largest_damping(const CertifiedPort& port) { return std::max(port.law->damping, port.law->largest_damping); }
+
 // The damping that is wanted at the tip where all ports are pushed.
 axes::TipDamping wanted_at_tip(const AxesNetwork& network, const std::vector<CertifiedPort>& ports) {
   return [&network, ports](const Pair<double>& tip) {
     Symmetric<double> sum = axes::symmetric_part(axes::field_at(network.field, tip));
     for (const CertifiedPort& port : ports)
-      sum = sum + std::max(port.law->damping, port.law->largest_damping) *
-                      axes::outer(axes::depth(port.port->map, tip).gradient);
+      sum = sum + largest_damping(port) * axes::outer(axes::depth(port.port->map, tip).gradient);
     return sum;
   };
 }
@@ -214,7 +215,7 @@ std::string unproved(const std::vector<CertifiedPort>& ports) {
   return "";
 }
 
-bool damps(const CertifiedPort& port) { return std::max(port.law->damping, port.law->largest_damping) > 0; }
+bool damps(const CertifiedPort& port) { return largest_damping(port) > 0; }
 
 // Whether the port's damping takes values between none and all, so that the ends of R do not tell what it is in
 // between.
@@ -299,8 +300,7 @@ axes::Size remainder_beside(const std::vector<double>& added, const Asked& asked
   std::vector<axes::PortDamping> dampings;
   for (const CertifiedPort& port : asked.ports)
     if (damps(port))
-      dampings.push_back({port.port->map, std::max(port.law->damping, port.law->largest_damping),
-                          port.port->network.contact.has_value()});
+      dampings.push_back({port.port->map, largest_damping(port), port.port->network.contact.has_value()});
   std::vector<axes::Brake> brakes = brakes_of(device);
   for (std::size_t k = 0; k < brakes.size(); ++k)
     if (brakes[k].most < axes::unlimited) brakes[k].most = std::max(brakes[k].most - added[k], 0.0);

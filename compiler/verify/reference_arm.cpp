@@ -151,16 +151,6 @@ Reference depth_of(const PortForce& force, const ReferencePair& tip) {
   return force.grid ? force.grid->depth(tip[0], tip[1]) : depth_at(force.port->map, tip);
 }
 
-// S of springs and dampers: k0/2 + Σ c/(1 + a).
-Reference held_of_linear(const ReferenceForm& form, const LawFacts& facts) {
-  Reference held = form.static_stiffness / 2;
-  for (const ReferenceMode& mode : form.modes) {
-    const ModeFactors factors = mode_factors(mode, facts);
-    held += factors.gain / (1 + factors.decay);
-  }
-  return held;
-}
-
 // S of slips and contacts: a motor that has to make a damper's force holds it for a period.
 Reference held_behind_slips(const ReferenceCut& cut, const LawFacts& facts) {
   return cut.stiffness + cut.of_motor() * Reference(facts.rate);
@@ -180,7 +170,7 @@ PortForce force_of(const AxesCompilation& c, std::size_t i) {
   for (const Element& element : network.elements) force.yields += Reference(yield_force_of(element.law));
   force.held = tree.has_slips() || network.contact
                    ? held_behind_slips(reference_cut(tree, network, slips, facts, prompt), facts)
-                   : held_of_linear(tree.linear, facts);
+                   : reference_cut(tree.linear, facts).stiffness;
   return force;
 }
 

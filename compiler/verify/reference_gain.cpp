@@ -39,10 +39,7 @@ struct PulseLaw {
   long double static_stiffness = 0, step_stiffness = 0, velocity_gain = 0;
   std::vector<PulseMode> modes;
 
-  bool follows_estimate() const {
-    return velocity_gain != 0 ||
-           std::any_of(modes.begin(), modes.end(), [](const PulseMode& mode) { return mode.velocity_drive != 0; });
-  }
+  bool follows_estimate() const { return velocity_gain != 0 || estimate_drives_modes(); }
   bool estimate_drives_modes() const {
     return std::any_of(modes.begin(), modes.end(), [](const PulseMode& mode) { return mode.velocity_drive != 0; });
   }

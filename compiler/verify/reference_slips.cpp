@@ -9,17 +9,8 @@
 namespace dashpot::compiler {
 namespace {
 
-ReferenceCut cut_of(const ReferenceForm& form, const LawFacts& facts) {
-  ReferenceCut cut{form.static_stiffness / 2, form.feedthrough_damping};
-  for (const ReferenceMode& mode : form.modes) {
-    const ModeFactors f = mode_factors(mode, facts);
-    cut.stiffness += f.gain / (1 + f.decay);
-  }
-  return cut;
-}
-
 std::optional<ReferenceCut> least_cut(const ReferencePart& part, const LawFacts& facts, const Reference& weight) {
-  if (part.kind == ReferencePart::Kind::block) return cut_of(part.form, facts);
+  if (part.kind == ReferencePart::Kind::block) return reference_cut(part.form, facts);
   if (part.kind == ReferencePart::Kind::slip) return std::nullopt;
   std::optional<ReferenceCut> least;
   ReferenceCut sum{0, 0};
@@ -66,6 +57,15 @@ ReferenceCut least_cut(const Network& network, const std::vector<std::size_t>& e
 
 }  // namespace
 
+ReferenceCut reference_cut(const ReferenceForm& form, const LawFacts& facts) {
+  ReferenceCut cut{form.static_stiffness / 2, form.feedthrough_damping};
+  for (const ReferenceMode& mode : form.modes) {
+    const ModeFactors f = mode_factors(mode, facts);
+    cut.stiffness += f.gain / (1 + f.decay);
+  }
+  return cut;
+}
+
 ReferenceTree rendered_tree(ReferenceTree tree, const Network& network, const SlipDecomposition& slips) {
   for (std::size_t i = 0; i < std::min(tree.components.size(), slips.components.size()); ++i)
     if (slips.components[i].law == SlipLaw::gated)
@@ -104,7 +104,7 @@ ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, co
     add(least_cut(network, tree.networks[i], facts, weight));
     less_the_brake(slips.networks, i);
   }
-  if (with_contact) add(cut_of(tree.linear, facts));
+  if (with_contact) add(reference_cut(tree.linear, facts));
   return sum;
 }
 

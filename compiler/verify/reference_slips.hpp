@@ -21,6 +21,7 @@ struct ReferenceCut {
   // What the motor has left; nothing where that is left over from rounding.
   Reference of_motor() const;
 };
+ReferenceCut reference_cut(const ReferenceForm& form, const LawFacts& facts);
 ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips,
                            const LawFacts& facts, double lateness);
 

@@ -14,11 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class Value>
-Json or_null(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 Json json_of(const Candidate& c) {
   Json inputs = Json::array();
   for (const StateInputMerit& merit : c.state_inputs)

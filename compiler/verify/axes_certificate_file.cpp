@@ -4,7 +4,6 @@
 
 #include "network/port_units.hpp"
 #include "syntax/parse_axes.hpp"
-#include "verify/header_constants.hpp"
 #include "verify/network_json.hpp"
 
 namespace dashpot::compiler {
@@ -69,9 +68,6 @@ Json json_of(const AxesCertificate& c, const AxesDevice& device) {
 
 std::string axes_certificate_text(const AxesCompilation& c, const std::string& network_text,
                                   const std::optional<std::string>& device_text, const std::string& header) {
-  Json constants = Json::object();
-  if (const auto found = header_constants(header))
-    for (const HeaderConstant& constant : found->all) constants[constant.name] = constant.values;
   const Json all = {{"dashpot_certificate", 1},
                     {"axes", most_axes},
                     {"version", DASHPOT_VERSION},
@@ -83,11 +79,11 @@ std::string axes_certificate_text(const AxesCompilation& c, const std::string& n
                       {"scalar", name_of(c.law.scalar)},
                       {"decomposition", c.decomposition}}},
                     {"ports", json_of_ports(c)},
-                    {"constants", constants},
+                    {"constants", json_of_constants(header)},
                     {"loop", json_of_loop(c.device)},
                     {"passivity", json_of(c.certificate, c.device)},
                     {"network_file", network_text},
-                    {"device_file", device_text ? Json(*device_text) : Json(nullptr)}};
+                    {"device_file", or_null(device_text)}};
   return all.dump(2) + "\n";
 }
 

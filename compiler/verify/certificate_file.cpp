@@ -5,7 +5,6 @@
 
 #include "certify/storage_function.hpp"
 #include "network/port_units.hpp"
-#include "verify/header_constants.hpp"
 #include "verify/network_json.hpp"
 
 namespace dashpot::compiler {
@@ -52,15 +51,13 @@ Json json_of(const Certificate& c) {
           {"any_value", c.bound.any_value},
           {"reason", c.bound.reason},
           {"quantisation_stiffness", c.quantisation_stiffness},
-          {"quantisation_gain", c.quantisation_gain ? Json(*c.quantisation_gain) : Json(nullptr)}};
+          {"quantisation_gain", or_null(c.quantisation_gain)}};
 }
 
 // P of the storage function that proves the needed damping; null where the statement rests on something else.
 Json json_of_storage(const PassivityBound& bound) {
   return bound.storage ? Json{{"matrix", *bound.storage}} : Json(nullptr);
 }
-
-Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json json_of(const MotorLimits& limits, const SampledLoop& loop, const std::string& unit) {
   return {{"max_force", loop.max_force},
@@ -128,9 +125,6 @@ Choices CertificateFile::as_asked() const {
 std::string certificate_text(const Compilation& c, const Choices& choices, const std::string& network_text,
                              const std::optional<std::string>& device_text, const std::string& header) {
   const bool nodal = c.decomposition.choice().state_input == StateInput::nodal;
-  Json constants = Json::object();
-  if (const auto found = header_constants(header))
-    for (const HeaderConstant& constant : found->all) constants[constant.name] = constant.values;
   Json all = {
       {"dashpot_certificate", 1},
       {"version", DASHPOT_VERSION},
@@ -139,14 +133,14 @@ std::string certificate_text(const Compilation& c, const Choices& choices, const
       {"law", json_of_choices(c, choices)},
       {"elements", json_of_elements(c.network)},
       {"canonical_form", json_of_form(nodal ? c.decomposition.realisation : c.form.linear)},
-      {"constants", constants},
+      {"constants", json_of_constants(header)},
       {"loop", json_of(c.certificate.loop)},
       {"passivity", json_of(c.certificate)},
       {"storage", json_of_storage(c.certificate.bound)},
       {"energy", json_of(c.certificate.energy)},
       {"motor_limits", json_of(c.certificate.limits, c.certificate.loop, port_units(c.network.port_motion).damping)},
       {"network_file", network_text},
-      {"device_file", device_text ? Json(*device_text) : Json(nullptr)}};
+      {"device_file", or_null(device_text)}};
   if (!c.ports.empty()) all["ports"] = json_of_ports(c);
   return all.dump(2) + "\n";
 }

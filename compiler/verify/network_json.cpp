@@ -1,6 +1,7 @@
 #include "verify/network_json.hpp"
 
 #include "network/law.hpp"
+#include "verify/header_constants.hpp"
 
 namespace dashpot::compiler {
 
@@ -25,6 +26,13 @@ Json json_of_elements(const Network& network) {
 
 Json json_of(const DeviceShare& share) {
   return {{"brake", share.brake}, {"own_damping", share.own_damping}, {"motor", share.motor}};
+}
+
+Json json_of_constants(const std::string& header) {
+  Json constants = Json::object();
+  if (const auto found = header_constants(header))
+    for (const HeaderConstant& constant : found->all) constants[constant.name] = constant.values;
+  return constants;
 }
 
 Json json_of_form(const LinearForm& form) {

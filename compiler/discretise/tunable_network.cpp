@@ -66,6 +66,7 @@ class TablesBuilder {
 
   // False, with a diagnostic, where too many slips are in no tree.
   bool build(Diagnostics& diagnostics) {
+    tables_.network = network_.name;
     write_head();
     for (const Parameter& parameter : network_.parameters)
       if (parameter.tunable) add_tunable(parameter);

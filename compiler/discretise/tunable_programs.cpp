@@ -36,6 +36,13 @@ constexpr std::string_view names_of_map =
     "map_bend mapped mapped_size mapped_velocity mapped_force tangent tangent_squared brake_command damping_at_tool "
     "pushed_in ";
 
+// Functions and types of every law in C (<dashpot/command.h>), and those that begin with the law's own name.
+constexpr std::string_view names_in_c =
+    "dashpot_command dashpot_all_finite dashpot_all_finitef dashpot_flush_below dashpot_flush_belowf dashpot_clamp_to "
+    "dashpot_clamp_tof ";
+constexpr std::string_view ends_in_c =
+    "square_root mean_decay tree_step tree_push network_step part_state corner tree network node link ";
+
 class ProgramsBuilder {
  public:
   explicit ProgramsBuilder(UpdateLaw law)
@@ -46,6 +53,8 @@ class ProgramsBuilder {
 
   UpdateLaw build() {
     take(names_taken);
+    take(names_in_c);
+    for (const std::string& law : {tables_.network, "law_" + tables_.network}) take(ends_in_c, law + "_");
     if (head_.map.is_there) take(names_of_map);
     if (tables_.sheds()) take(names_of_shedding);
     declare();
@@ -62,9 +71,9 @@ class ProgramsBuilder {
   }
 
  private:
-  void take(std::string_view names) {
+  void take(std::string_view names, const std::string& before = "") {
     for (std::size_t at = 0; at < names.size(); at = names.find(' ', at) + 1)
-      writer_.unique(std::string(names.substr(at, names.find(' ', at) - at)));
+      writer_.unique(before + std::string(names.substr(at, names.find(' ', at) - at)));
   }
 
   void declare() {

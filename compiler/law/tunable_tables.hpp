@@ -198,6 +198,7 @@ struct TunableBrake {
 
 // Numbers are already rounded to the law's scalar type.
 struct TunableTables {
+  std::string network;  // its name, with which those of functions in C begin
   TunableHead head = {};
   std::vector<Tunable> tunables;
   std::vector<TunableNumber> numbers;

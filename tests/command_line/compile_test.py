@@ -164,6 +164,22 @@ class Files(CommandTest):
             self.assertIn(f"--target c99 knows no {option[0]}", done.stderr)
             self.assertIn("note: --target cpp has it", done.stderr)
 
+    def test_functions_of_c99(self):
+        """Fails if an element's value, a local number in C, hides a function that the same lines call."""
+        for word in ["dashpot_all_finite", "dashpot_flush_below", "dashpot_clamp_to", "dashpot_command",
+                     "hidden_square_root", "hidden_mean_decay"]:
+            self.write("hidden.json", json.dumps({
+                "dashpot": 1, "name": "hidden",
+                "parameters": {"K": {"value": "20 N/m", "tunable": True, "min": "0 N/m", "max": "100 N/m"}},
+                "network": {"parallel": [
+                    {"spring": "100 N/m", "name": word}, {"series": [{"spring": "K"}, {"slip": "1 N"}]},
+                    {"series": [{"spring": "K"}, {"damper": "1 N s/m"}]}]}}))
+            self.dashpot("compile", "hidden.json", "--target", "c99")
+            strict = ["gcc", "-std=c99", "-Wall", "-Wextra", "-Wshadow", "-Wno-unused-function", "-Werror"]
+            built = subprocess.run([*strict, "-fsyntax-only", "-x", "c", "hidden.h"], cwd=self.folder, text=True,
+                                   capture_output=True, check=False)
+            self.assertEqual(built.stderr, "", word)
+
     def test_hal(self):
         """Fails if --target hal writes anything but one component, or one that takes the place of another or has no
         room for its pins."""

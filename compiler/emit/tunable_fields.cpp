@@ -2,30 +2,45 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "emit/cpp_program.hpp"
 #include "emit/cpp_statements.hpp"
 
 namespace dashpot::compiler {
+namespace {
+
+// "restrict", the one word that C keeps and C++ does not, with an underscore behind it, or a number where another
+// parameter is called that.
+std::string member_in_c(const std::string& name, const std::vector<Tunable>& all) {
+  if (name != "restrict") return name;
+  std::string member = "restrict_";
+  const auto has_name = [&](const Tunable& t) { return t.name == member; };
+  for (int i = 2; std::any_of(all.begin(), all.end(), has_name); ++i) member = fmt::format("restrict_{}", i);
+  return member;
+}
+
+}  // namespace
 
 std::vector<Fields> tunable_fields(const UpdateLaw& law, ScalarType literals) {
   std::vector<Fields> all;
-  for (const Tunable& t : law.parameters()) {
+  const std::vector<Tunable> parameters = law.parameters();
+  for (const Tunable& t : parameters) {
     const std::string value = cpp_literal(t.range.value, literals), min = cpp_literal(t.range.min, literals),
                       max = cpp_literal(t.range.max, literals);
-    all.push_back(
-        {{"tunable", t.name},
-         {"member", t.name == "restrict" ? "restrict_" : t.name},  // the one word that C keeps and C++ does not
-         {"unit", t.unit},
-         {"low", fmt::format("{}", t.range.min)},
-         {"high", fmt::format("{}", t.range.max)},
-         {"value", value},
-         {"min", min},
-         {"max", max},
-         {"bounds", fmt::format("{{{}, {}}}", min, max)},
-         {"range", fmt::format("{{{}, {}, {}}}", value, min, max)},
-         {"index", std::to_string(all.size())},
-         {"variable", law.variables[t.value].name},
-         {"scalar_variable", CppStatements::scalar_name(law.variables[t.value])}});
+    all.push_back({{"tunable", t.name},
+                   {"member", member_in_c(t.name, parameters)},
+                   {"unit", t.unit},
+                   {"low", fmt::format("{}", t.range.min)},
+                   {"high", fmt::format("{}", t.range.max)},
+                   {"value", value},
+                   {"min", min},
+                   {"max", max},
+                   {"bounds", fmt::format("{{{}, {}}}", min, max)},
+                   {"range", fmt::format("{{{}, {}, {}}}", value, min, max)},
+                   {"index", std::to_string(all.size())},
+                   {"variable", law.variables[t.value].name},
+                   {"scalar_variable", CppStatements::scalar_name(law.variables[t.value])}});
   }
   return all;
 }

@@ -157,6 +157,15 @@ class Files(CommandTest):
         header = (self.folder / "out/word.h").read_text()
         self.assertIn("  double restrict_;  // 1 to 3 [N/m]", header)
         self.assertIn('if (i == 0) return "restrict";', header)
+        tunable = {"value": "2 N/m", "tunable": True, "min": "1 N/m", "max": "3 N/m"}
+        self.write("words.json", json.dumps({
+            "dashpot": 1, "name": "words", "network": {"parallel": [{"spring": "restrict"}, {"spring": "restrict_"}]},
+            "parameters": {"restrict": tunable, "restrict_": tunable}}))
+        self.dashpot("compile", "words.json", "--target", "c99", "-o", "out")
+        header = (self.folder / "out/words.h").read_text()
+        for line in ["  double restrict_2;  // 1 to 3 [N/m]", "  double restrict_;  // 1 to 3 [N/m]",
+                     "values[2] = {wanted->restrict_2, wanted->restrict_};"]:
+            self.assertIn(line, header)
         self.write("restrict.json", network('{ "spring": 1 }', "restrict"))
         self.dashpot("compile", "restrict.json")
         for option in [["--batch"], ["--constant-time"], ["--certificate", "c.json"]]:

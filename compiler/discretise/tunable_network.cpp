@@ -77,6 +77,7 @@ class TablesBuilder {
     else add_parts(*form);
     tables_.head.slip_rule.takes_part = brake_.follows != BrakeFollows::constant && has_dampers_behind_slips();
     if (network_.map && !network_.contact) write_map();
+    if (!network_.map && !device_.is_ideal()) write_hold();
     tables_.brake.observed = blocks_.number(network_, brake_.observed, {NumberKind::observed, brake_.observed});
     return true;
   }
@@ -223,6 +224,21 @@ class TablesBuilder {
   void name_slip(const std::vector<std::size_t>& elements) {
     tables_.slip_names.push_back(name_of(elements, network_));
     tables_.slip_elements.push_back(elements);
+  }
+
+  // Of an amplifier's lag as many samples as leave a 64th of it, but no more than eight.
+  void write_hold() {
+    const PortDevice at_tool = device_.at_tool();
+    const device_description& device = at_tool.description();
+    const double speed = device.encoder.max_speed * at_tool.position_scale(), period = double(period_);
+    if (!(speed > 0)) return;
+    const double margin = 1 + 16 * unit_roundoff(choices_.scalar), lag = device.motor.amplifier_lag / period;
+    const int of_lag = lag > 0 ? static_cast<int>(std::clamp(std::ceil(lag * std::log(64 * (1 + lag))), 1.0, 8.0)) : 0;
+    const double left = lag > 0 ? std::exp(-of_lag / lag) / -std::expm1(-1 / lag) : 0;
+    const double change = speed * (period + device.loop.jitter) * margin;
+    tables_.head.hold = {
+        1 + static_cast<int>(device.loop.delay_samples) + (device.loop.write_latest > 0 ? 1 : 0) + of_lag,
+        to_scalar(Real(change)), to_scalar(Real(left * change * margin))};
   }
 
   // How far w goes, and the static spring's stiffness, no less than they are at most.

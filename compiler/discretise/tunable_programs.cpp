@@ -342,6 +342,7 @@ class ProgramsBuilder {
     writer_.assign(law_.output, change_,
                    writer_.subtract(writer_.read(law_.position), writer_.read(law_.rest_position)), "Δu = u − u₋");
     ExpressionId sum = writer_.add(product(stiffness(), change_), writer_.read(held_));
+    sum = springs_->brought_home(sum, writer_.read(law_.position));
     if (tables_.has_slips()) {
       const VariableId slips = local("slips_force", writer_.force(), "σ, of all slips");
       springs_->slips().write_step(slips, writer_.read(change_));

@@ -1,5 +1,7 @@
 #include "discretise/tuned_springs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -50,6 +52,11 @@ void TunedSprings::declare() {
   });
   if (some_change || has_offsets())
     tank_ = numbers_.scalar("tank", "J", "T, set free by changes of parameters", Role::state);
+  if (has_offsets())
+    for (int i = 0; i < head_.hold.samples; ++i)
+      owed_.push_back(numbers_.scalar(i == 0 ? "owed" : "owed_before", writer_.force(),
+                                      "forces of which offsets that went home have let go, and which are still held",
+                                      Role::state));
   if (is_behind_map() && some_change)
     sampled_tank_ = numbers_.scalar("sampled_tank", "J", "T of the last sample", Role::state);
   if (is_behind_map() && static_spring() != nullptr && static_spring()->offset != nothing)
@@ -384,8 +391,21 @@ ExpressionId TunedSprings::followed(ExpressionId surface, ExpressionId depth) {
   return writer_.subtract(surface, read(returned));
 }
 
+ExpressionId TunedSprings::brought_home(ExpressionId force, ExpressionId position) {
+  const SpringNames* spring = static_spring();
+  if (shed_ == nothing || is_behind_map() || spring == nullptr) return force;
+  const ExpressionId r = read(spring->offset);
+  const ExpressionId middle = middle_of_nothing(r, position, joined(spring->name, "offset"));
+  const VariableId now = local(joined(spring->name, "offset_now"), writer_.length(),
+                               writer_.where(read(shed_), middle, r), "r: the middle one of 0, r and u");
+  static_offset_now_ = writer_.kept(now);
+  return writer_.add(force, writer_.multiply(spring->stiffness, writer_.subtract(r, read(now))));
+}
+
 void TunedSprings::write_update(ExpressionId change, ExpressionId position) {
   numbers_.begin(writer_.law().update);
+  if (static_offset_now_ != nothing) assign(static_spring()->offset, read(static_offset_now_), "");
+  if (!owed_.empty()) pay_what_is_owed(change);
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const ExpressionId stretched = i == 0 ? change : slips_.elongation(i);
     each_part_of(i, [&](const BlockPart& part) { advance(part, stretched); });
@@ -394,9 +414,62 @@ void TunedSprings::write_update(ExpressionId change, ExpressionId position) {
   else if (const SpringNames* spring = static_spring()) assign(spring->elongation, position, "z = u");
   if (is_behind_map()) let_go();
   bring_offsets_home();
+  if (!owed_.empty()) remember_what_is_owed();
   if (is_behind_map()) keep_sampled();
   slips_.keep();
   find_held();
+}
+
+// While the tool moves by Δ, a force that is held too long may give out its size times |Δ|. The tank pays for that, and
+// keeps what the samples to come may still take.
+void TunedSprings::pay_what_is_owed(ExpressionId change) {
+  ExpressionId sum = nothing, to_come = nothing;
+  for (std::size_t i = 0; i < owed_.size(); ++i) {
+    sum = writer_.plus(sum, read(owed_[i]));
+    const std::size_t left = owed_.size() - 1 - i;
+    if (left > 0) to_come = writer_.plus(to_come, writer_.multiply(read(owed_[i]), change_in(left)));
+  }
+  const ExpressionId paid = writer_.multiply(sum, size_of(change, "owed_change"));
+  assign(tank_, writer_.subtract(read(tank_), paid), "T ← T − Σ D |Δ|");
+  free_ = local_of("tank_free", "J", to_come == nothing ? read(tank_) : writer_.subtract(read(tank_), to_come));
+}
+
+void TunedSprings::remember_what_is_owed() {
+  for (std::size_t i = owed_.size(); i-- > 1;) assign(owed_[i], read(owed_[i - 1]), "");
+  assign(owed_[0], or_zero(newly_owed_), "D of offsets that have moved in this sample");
+}
+
+// How far the tool goes at most in so many samples.
+ExpressionId TunedSprings::change_in(std::size_t samples) {
+  const std::string name = samples == 1 ? "largest_change" : fmt::format("largest_change_of_{}", samples);
+  return numbers_.constant(name, writer_.length(), "of the tool while a force is held",
+                           double(samples) * head_.hold.change);
+}
+
+// Above 0 where the tank does not pay for an offset that moves: `cost`, and what the force `jump` less may give out
+// while it is held. Where it does, that is taken from the tank.
+ExpressionId TunedSprings::unpaid(const SpringNames& spring, const char* what, ExpressionId cost, ExpressionId jump) {
+  const auto called = [&](const char* of) { return joined(joined(spring.name, what), of); };
+  if (owed_.empty()) {
+    const ExpressionId lacking = local_of(called("unpaid"), "J", writer_.subtract(cost, read(tank_)));
+    assign(tank_, writer_.where(lacking, read(tank_), writer_.subtract(read(tank_), cost)), "");
+    return lacking;
+  }
+  const ExpressionId size = size_of(jump, called("jump"));
+  if (head_.hold.rest > 0)
+    cost = local_of(called("cost_held"), "J",
+                    writer_.add(cost, writer_.multiply(size, numbers_.constant("change_after", writer_.length(),
+                                                                               "of the tool beyond that, as far as the "
+                                                                               "amplifier still lags",
+                                                                               head_.hold.rest))));
+  const ExpressionId whole =
+      local_of(called("cost_at_most"), "J", writer_.add(cost, writer_.multiply(size, change_in(owed_.size()))));
+  const ExpressionId lacking = local_of(called("unpaid"), "J", writer_.subtract(whole, free_));
+  assign(tank_, writer_.where(lacking, read(tank_), writer_.subtract(read(tank_), cost)), "");
+  free_ = local_of(joined(called("tank"), "free"), "J", writer_.where(lacking, free_, writer_.subtract(free_, whole)));
+  newly_owed_ =
+      writer_.plus(newly_owed_, local_of(called("owed"), writer_.force(), writer_.where(lacking, zero(), size)));
+  return lacking;
 }
 
 void TunedSprings::advance(const BlockPart& part, ExpressionId change) {
@@ -444,7 +517,7 @@ void TunedSprings::shed(ExpressionId position) {
   if (shed_ != nothing) {
     assign(shed_, writer_.where(binds, one(), read(shed_)), "");
     for (SpringNames& spring : springs_)
-      if (spring.offset != nothing && !(is_behind_map() && &spring == static_spring())) bring_shed_offset_home(spring);
+      if (spring.offset != nothing && &spring != static_spring()) bring_shed_offset_home(spring);
   }
 }
 
@@ -467,8 +540,27 @@ void TunedSprings::shed(const BlockPart& part, SpringNames& spring, ExpressionId
 // The offset is no further from 0 than the spring's elongation: the median of 0, r and z.
 void TunedSprings::bring_shed_offset_home(SpringNames& spring) {
   const ExpressionId r = read(spring.offset), z = read(spring.elongation);
-  const ExpressionId middle = middle_of_nothing(r, z, joined(spring.name, "offset"));
-  assign(spring.offset, writer_.where(read(shed_), middle, r), "r: the middle one of 0, r and z");
+  const ExpressionId middle = writer_.where(read(shed_), middle_of_nothing(r, z, joined(spring.name, "offset")), r);
+  if (owed_.empty()) return assign(spring.offset, middle, "r: the middle one of 0, r and z");
+  const ExpressionId home = local_of(joined(spring.name, "offset_home"), writer_.length(), middle);
+  const ExpressionId jump = jump_of(spring, "turn_jump", r, home);
+  const ExpressionId lacking = unpaid(spring, "turn", cost_of_jump(spring, jump, r, home), jump);
+  assign(spring.offset, writer_.where(lacking, r, home), "r: the middle one of 0, r and z, where the tank pays");
+}
+
+// k (r − r′), of an offset that moves from r to r′.
+ExpressionId TunedSprings::jump_of(const SpringNames& spring, const char* what, ExpressionId before,
+                                   ExpressionId after) {
+  const ExpressionId jump = writer_.multiply(spring.stiffness, writer_.subtract(before, after));
+  return owed_.empty() ? jump : local_of(joined(spring.name, what), writer_.force(), jump);
+}
+
+// ½ k (z − r′)² − ½ k (z − r)², of an offset that moves from r to r′; `jump` is k (r − r′).
+ExpressionId TunedSprings::cost_of_jump(const SpringNames& spring, ExpressionId jump, ExpressionId before,
+                                        ExpressionId after) {
+  const ExpressionId z = read(spring.elongation);
+  const ExpressionId both = writer_.add(writer_.subtract(z, after), writer_.subtract(z, before));
+  return writer_.multiply(writer_.multiply(jump, both), half());
 }
 
 ExpressionId TunedSprings::middle_of_nothing(ExpressionId x, ExpressionId y, const std::string& name) {
@@ -511,21 +603,18 @@ void TunedSprings::bring_offsets_home() {
   ExpressionId owed = nothing;
   for (SpringNames& spring : springs_) {
     if (spring.offset == nothing) continue;
-    const ExpressionId r = read(spring.offset), z = read(spring.elongation);
+    const ExpressionId r = read(spring.offset);
     const ExpressionId retention = numbers_.constant("retention", "1", "what an offset keeps in a sample",
                                                      head_.retention, ConstantRole::retention);
     const ExpressionId after =
         local_of(joined(spring.name, "offset_after"), writer_.length(), writer_.flush(writer_.multiply(retention, r)));
-    const ExpressionId both = writer_.add(writer_.subtract(z, after), writer_.subtract(z, r));
-    const ExpressionId jump = writer_.multiply(spring.stiffness, writer_.subtract(r, after));
-    ExpressionId whole = writer_.multiply(writer_.multiply(jump, both), half());
+    const ExpressionId jump = jump_of(spring, "offset_jump", r, after);
+    ExpressionId whole = cost_of_jump(spring, jump, r, after);
     if (is_behind_map())
       whole = writer_.add(whole, writer_.multiply(size_of(jump, joined(spring.name, "offset_jump")), largest_change()));
     const ExpressionId cost = local_of(joined(spring.name, "offset_cost"), "J", whole);
-    const ExpressionId unpaid =
-        local_of(joined(spring.name, "offset_unpaid"), "J", writer_.subtract(cost, read(tank_)));
-    assign(spring.offset, writer_.where(unpaid, r, after), "r goes home where the tank pays");
-    assign(tank_, writer_.where(unpaid, read(tank_), writer_.subtract(read(tank_), cost)), "");
+    const ExpressionId lacking = unpaid(spring, "offset", cost, jump);
+    assign(spring.offset, writer_.where(lacking, r, after), "r goes home where the tank pays");
     if (shed_ != nothing) owed = writer_.plus(owed, size_of(read(spring.offset), joined(spring.name, "offset_left")));
   }
   if (shed_ != nothing) assign(shed_, writer_.where(owed, read(shed_), zero()), "nothing is left of what was shed");

@@ -31,7 +31,10 @@ class TunedSprings {
   // After all of those: each force stays what it was as far as energy allows, and what is held is found once more.
   void carry_over();
 
-  // In output(): where a surface stands when it and its dent have followed a tool that has left.
+  // In output(): a force with the static spring's offset, where some of it is left of shedding, no further out than the
+  // tool's position; before a command is written with it.
+  ExpressionId brought_home(ExpressionId force, ExpressionId position);
+  // Also there: where a surface stands when it and its dent have followed a tool that has left.
   ExpressionId followed(ExpressionId surface, ExpressionId depth);
   // update(), given the change of the tool, or the surface, and where it is.
   void write_update(ExpressionId change, ExpressionId position);
@@ -113,6 +116,12 @@ class TunedSprings {
   ExpressionId middle_of_nothing(ExpressionId x, ExpressionId y, const std::string& name);
   void let_go();
   void bring_offsets_home();
+  void pay_what_is_owed(ExpressionId change);
+  void remember_what_is_owed();
+  ExpressionId change_in(std::size_t samples);
+  ExpressionId unpaid(const SpringNames& spring, const char* what, ExpressionId cost, ExpressionId jump);
+  ExpressionId jump_of(const SpringNames& spring, const char* what, ExpressionId before, ExpressionId after);
+  ExpressionId cost_of_jump(const SpringNames& spring, ExpressionId jump, ExpressionId before, ExpressionId after);
   void find_held();
   ExpressionId held(std::size_t block);
   ExpressionId force_of_edge(const SpringNames& spring);
@@ -143,7 +152,11 @@ class TunedSprings {
   TunedSlips slips_;
   VariableId held_force_;
   VariableId tank_ = nothing, sampled_tank_ = nothing, stiffest_share_ = nothing, shed_ = nothing, dent_ = nothing,
-             returned_ = nothing;
+             returned_ = nothing, static_offset_now_ = nothing;
+  std::vector<VariableId>
+      owed_;                     // D of the moves of each of the last samples, the newest first; empty: not counted [N]
+  ExpressionId free_ = nothing;  // in update(): of T, what no sample to come can take
+  ExpressionId newly_owed_ = nothing;
 };
 
 }  // namespace dashpot::compiler

@@ -169,7 +169,7 @@ class BatchPrinter {
     batch.constants.insert(batch.constants.begin(), begin.begin(), begin.end());
     batch.set = {
         "// Of one point, right after step(), the commands then being those of output() with the same samples: so",
-        "// the force from before is held no longer, and the change injects no energy. Bit i of the result:",
+        "// the force from before is held no longer, and a spring that changes injects no energy. Bit i of the result:",
         "// parameter i was beyond its range and is at its bound now, or it was NaN and is as it was.",
         "unsigned set(long long point, const parameters& wanted) noexcept {",
         "  scalar* const state = state_of(point);"};

@@ -115,6 +115,13 @@ struct TunableMap {
   double largest_stiffness;  // of the spring that joins tool and ground directly, whatever is set [N/m]
 };
 
+// The force from before an offset went home is held meanwhile: for how long, and how far the tool goes.
+struct TunableHold {
+  int samples = 0;    // of `change` at most; 0 where the device states no largest speed, and nothing is counted
+  double change = 0;  // of the tool, from one sample to the next [m]
+  double rest = 0;  // of the tool, beyond these samples, weighted by what an amplifier that lags still makes of it [m]
+};
+
 // Block 0 is what joins tool and ground without a slip. With a contact and slips it is a part of the one coupling or
 // graph.
 struct TunableHead {
@@ -127,6 +134,7 @@ struct TunableHead {
   double motor_limit = 0;  // of its force; 0: none [N]
   double motor_step = 0;   // of its change in a period; 0: none [N]
   TunableMap map = {false, 0, 0};
+  TunableHold hold = {};
 };
 
 struct Tunable {

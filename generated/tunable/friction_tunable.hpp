@@ -161,8 +161,8 @@ class friction_tunable {
   }
 
   // Right after step(), the command then being that of output() with the same sample and without update(): so the
-  // force from before is held no longer, and the change injects no energy. Bit i of the result: parameter i was
-  // beyond its range and is at its bound now, or it was NaN and is as it was.
+  // force from before is held no longer, and a spring that changes injects no energy. Bit i of the result: parameter i
+  // was beyond its range and is at its bound now, or it was NaN and is as it was.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;

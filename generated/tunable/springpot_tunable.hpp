@@ -149,9 +149,9 @@ class springpot_tunable {
     const scalar rest_offset_cost = rest * (rest_offset_ - rest_offset_after) *
         (rest_elongation_ - rest_offset_after + (rest_elongation_ - rest_offset_)) * half;
     const scalar rest_offset_unpaid = rest_offset_cost - tank_;
+    tank_ = rest_offset_unpaid > 0 ? tank_ : tank_ - rest_offset_cost;
     // r goes home where the tank pays
     rest_offset_ = rest_offset_unpaid > 0 ? rest_offset_ : rest_offset_after;
-    tank_ = rest_offset_unpaid > 0 ? tank_ : tank_ - rest_offset_cost;
     // π
     held_force_ = rest * (rest_elongation_ - rest_offset_) +
         (muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ - muscle_spring_1_ *
@@ -212,9 +212,9 @@ class springpot_tunable {
     const scalar rest_offset_cost = rest * (rest_offset_ - rest_offset_after) *
         (rest_elongation_ - rest_offset_after + (rest_elongation_ - rest_offset_)) * half;
     const scalar rest_offset_unpaid = rest_offset_cost - tank_;
+    tank_ = rest_offset_unpaid > 0 ? tank_ : tank_ - rest_offset_cost;
     // r goes home where the tank pays
     rest_offset_ = rest_offset_unpaid > 0 ? rest_offset_ : rest_offset_after;
-    tank_ = rest_offset_unpaid > 0 ? tank_ : tank_ - rest_offset_cost;
     // π
     held_force_ = rest * (rest_elongation_ - rest_offset_) +
         (muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ - muscle_spring_1_ *
@@ -234,8 +234,8 @@ class springpot_tunable {
   }
 
   // Right after step(), the command then being that of output() with the same sample and without update(): so the
-  // force from before is held no longer, and the change injects no energy. Bit i of the result: parameter i was
-  // beyond its range and is at its bound now, or it was NaN and is as it was.
+  // force from before is held no longer, and a spring that changes injects no energy. Bit i of the result: parameter i
+  // was beyond its range and is at its bound now, or it was NaN and is as it was.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;

@@ -120,9 +120,9 @@ class standard_solid_tunable {
     const scalar spring_1_offset_cost = K1_ * (spring_1_offset_ - spring_1_offset_after) *
         (spring_1_elongation_ - spring_1_offset_after + (spring_1_elongation_ - spring_1_offset_)) * half;
     const scalar spring_1_offset_unpaid = spring_1_offset_cost - tank_;
+    tank_ = spring_1_offset_unpaid > 0 ? tank_ : tank_ - spring_1_offset_cost;
     // r goes home where the tank pays
     spring_1_offset_ = spring_1_offset_unpaid > 0 ? spring_1_offset_ : spring_1_offset_after;
-    tank_ = spring_1_offset_unpaid > 0 ? tank_ : tank_ - spring_1_offset_cost;
     const scalar spring_1_force = K1_ * (spring_1_elongation_ - spring_1_offset_);
     const scalar K2_force = K2 * K2_elongation_;
     node_1_push_ = zero + spring_1_force - K2_force;
@@ -154,9 +154,9 @@ class standard_solid_tunable {
     const scalar spring_1_offset_cost = K1_ * (spring_1_offset_ - spring_1_offset_after) *
         (spring_1_elongation_ - spring_1_offset_after + (spring_1_elongation_ - spring_1_offset_)) * half;
     const scalar spring_1_offset_unpaid = spring_1_offset_cost - tank_;
+    tank_ = spring_1_offset_unpaid > 0 ? tank_ : tank_ - spring_1_offset_cost;
     // r goes home where the tank pays
     spring_1_offset_ = spring_1_offset_unpaid > 0 ? spring_1_offset_ : spring_1_offset_after;
-    tank_ = spring_1_offset_unpaid > 0 ? tank_ : tank_ - spring_1_offset_cost;
     const scalar spring_1_force = K1_ * (spring_1_elongation_ - spring_1_offset_);
     const scalar K2_force = K2 * K2_elongation_;
     node_1_push_ = zero + spring_1_force - K2_force;
@@ -169,8 +169,8 @@ class standard_solid_tunable {
   }
 
   // Right after step(), the command then being that of output() with the same sample and without update(): so the
-  // force from before is held no longer, and the change injects no energy. Bit i of the result: parameter i was
-  // beyond its range and is at its bound now, or it was NaN and is as it was.
+  // force from before is held no longer, and a spring that changes injects no energy. Bit i of the result: parameter i
+  // was beyond its range and is at its bound now, or it was NaN and is as it was.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;

@@ -1,8 +1,14 @@
 // Certified laws behind contacts, and with parameters that change, in closed loop, held by random passive hands.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <deque>
+
 #include "random_cases.hpp"
+#include "source/render.hpp"
 #include "support/repetitions.hpp"
+#include "syntax/parse_device.hpp"
 
 namespace dashpot::testing {
 namespace {
@@ -43,6 +49,110 @@ TEST(CertifiedTunables, NeverGiveOutEnergyWhateverIsSet) {
   EXPECT_GT(by_hold, certified / 10);
   EXPECT_GT(with_slips, certified / 10);
   EXPECT_GE(without_jumps, certified - certified / 50);
+}
+
+// A certified spring of 50 to 100 N/m on a device at 1 kHz, moved by a hand that calls set() as the headers ask for it;
+// `keys`: of the device beside that. The command acts `delay` samples late.
+class SpringInHand {
+ public:
+  SpringInHand(const std::string& keys, int delay)
+      : compilation_(compiled(fmt::format(R"({{ "dashpot_device": 1, "name": "device",
+            "loop": {{ "rate": "1 kHz", "delay_samples": {} }},
+            "encoder": {{ "range": ["-20 mm", "20 mm"], "max_speed": "1 m/s" }},
+            "brake": {{ "kind": "eddy_current", "max_damping": "5 N s/m" }} {} }})",
+                                          delay, keys))),
+        law_(compilation_.law),
+        acting_(std::size_t(delay) + 1, command<double>{0, 0}) {
+    law_.reset();
+    law_.set({50});
+  }
+
+  bool is_certified() const { return compilation_.certificate.certified; }
+  double position() const { return position_; }
+  double taken() const { return taken_; }  // by the device from the hand [J]
+  double force() const { return acting_.front().force; }
+  double share() const { return law_.kept_share(); }
+
+  void set(double stiffness) { sample(0, stiffness); }
+  void go(double change, int samples = 1) {
+    for (int k = 0; k < samples; ++k) sample(change, {});
+  }
+
+ private:
+  static constexpr double period = 1e-3;  // [s]
+
+  static Compilation compiled(const std::string& device_text) {
+    const SourceFile network("network.json", R"({ "dashpot": 1, "name": "spring",
+      "parameters": { "K": { "value": 50, "tunable": true, "min": 50, "max": 100 } }, "network": { "spring": "K" } })");
+    const SourceFile device_file("device.json", device_text);
+    Diagnostics diagnostics;
+    const std::optional<DeviceDecl> decl = parse_device(device_file, diagnostics);
+    const std::optional<Device> device = decl ? build_device(*decl, diagnostics) : std::nullopt;
+    Choices choices;
+    choices.decomposition = std::string("virtual");
+    std::optional<Compilation> found = device ? compile(network, choices, device, diagnostics) : std::nullopt;
+    if (!found) throw std::runtime_error(render_text(diagnostics));
+    return std::move(*found);
+  }
+
+  void sample(double change, std::optional<double> stiffness) {
+    command<double> now = law_.step(position_, (position_ - last_) / period);
+    last_ = position_;
+    if (stiffness) {
+      law_.set({*stiffness});
+      now = law_.output(position_, 0);
+    }
+    acting_.pop_front();
+    acting_.push_back(now);
+    taken_ += acting_.front().force * change + acting_.front().damping * change * change / period;
+    position_ += change;
+  }
+
+  Compilation compilation_;
+  Evaluation<double> law_;
+  std::deque<command<double>> acting_;
+  double position_ = 0, last_ = 0, taken_ = 0;
+};
+
+// If this failed, an offset that goes home after a change would let go of a force that is still held, and a hand that
+// moves meanwhile would be given its work in every round.
+TEST(CertifiedTunables, GiveOutNoEnergyWhileOffsetsGoHome) {
+  for (const int delay : {0, 2}) {
+    SpringInHand spring("", delay);
+    ASSERT_TRUE(spring.is_certified());
+    for (int round = 0; round < 20; ++round) {
+      spring.set(50);
+      spring.go(1e-6, 10000);
+      spring.set(100);
+      spring.go(1e-4, 60);
+      spring.go(0, 600);
+      spring.go(-5e-6, 3200);
+      spring.go(0, 2000);
+      EXPECT_GE(spring.taken(), 0) << "round " << round << ", delay " << delay;
+    }
+    EXPECT_LT(std::abs(spring.force()), 0.05) << "the offset has not gone home";
+  }
+}
+
+// If this failed, an offset that is left of forces that were shed would follow a tool that comes back only after its
+// force is held, and dither would be given energy.
+TEST(CertifiedTunables, GiveOutNoEnergyWhileAToolComesBackAfterShedding) {
+  for (const double top : {0.004, 0.00425}) {
+    SpringInHand spring(R"(, "motor": { "max_torque": "0.3 N" })", 0);
+    ASSERT_TRUE(spring.is_certified());
+    spring.go(1e-6, static_cast<int>(top / 1e-6));
+    spring.set(100);
+    spring.go(0, 400);
+    for (int k = 0; k < 2000 && spring.share() == 1; ++k) spring.go(1e-6);
+    ASSERT_LT(spring.share(), 1);
+    for (int k = 0; k < 1000 && spring.force() > 0.002; ++k) spring.go(-1e-5);
+    for (int k = 0; k < 50 && spring.position() > 0; ++k) {
+      spring.go(-1e-4);
+      spring.go(8e-4);
+      spring.go(-8e-4);
+    }
+    EXPECT_GE(spring.taken(), 0) << "pressed to " << top << " m";
+  }
 }
 
 // If this failed, a law with slips, a contact or parameters would give out more than its certificate states for an

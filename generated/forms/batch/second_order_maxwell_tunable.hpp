@@ -118,9 +118,9 @@ class second_order_maxwell_tunable {
     const scalar K3_offset_cost = K3 * (K3_offset_ - K3_offset_after) * (K3_elongation_ - K3_offset_after +
         (K3_elongation_ - K3_offset_)) * half;
     const scalar K3_offset_unpaid = K3_offset_cost - tank_;
+    tank_ = K3_offset_unpaid > 0 ? tank_ : tank_ - K3_offset_cost;
     // r goes home where the tank pays
     K3_offset_ = K3_offset_unpaid > 0 ? K3_offset_ : K3_offset_after;
-    tank_ = K3_offset_unpaid > 0 ? tank_ : tank_ - K3_offset_cost;
     // π
     held_force_ = K3 * (K3_elongation_ - K3_offset_) +
         (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
@@ -154,9 +154,9 @@ class second_order_maxwell_tunable {
     const scalar K3_offset_cost = K3 * (K3_offset_ - K3_offset_after) * (K3_elongation_ - K3_offset_after +
         (K3_elongation_ - K3_offset_)) * half;
     const scalar K3_offset_unpaid = K3_offset_cost - tank_;
+    tank_ = K3_offset_unpaid > 0 ? tank_ : tank_ - K3_offset_cost;
     // r goes home where the tank pays
     K3_offset_ = K3_offset_unpaid > 0 ? K3_offset_ : K3_offset_after;
-    tank_ = K3_offset_unpaid > 0 ? tank_ : tank_ - K3_offset_cost;
     // π
     held_force_ = K3 * (K3_elongation_ - K3_offset_) +
         (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
@@ -168,8 +168,8 @@ class second_order_maxwell_tunable {
   }
 
   // Right after step(), the command then being that of output() with the same sample and without update(): so the
-  // force from before is held no longer, and the change injects no energy. Bit i of the result: parameter i was
-  // beyond its range and is at its bound now, or it was NaN and is as it was.
+  // force from before is held no longer, and a spring that changes injects no energy. Bit i of the result: parameter i
+  // was beyond its range and is at its bound now, or it was NaN and is as it was.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;

@@ -108,7 +108,7 @@ class second_order_maxwell_tunable_batch {
   }
 
   // Of one point, right after step(), the commands then being those of output() with the same samples: so
-  // the force from before is held no longer, and the change injects no energy. Bit i of the result:
+  // the force from before is held no longer, and a spring that changes injects no energy. Bit i of the result:
   // parameter i was beyond its range and is at its bound now, or it was NaN and is as it was.
   unsigned set(long long point, const parameters& wanted) noexcept {
     scalar* const state = state_of(point);
@@ -329,9 +329,9 @@ class second_order_maxwell_tunable_batch {
       const vector K3_offset_cost = K3 * (K3_offset_ - K3_offset_after) * (K3_elongation_ - K3_offset_after +
           (K3_elongation_ - K3_offset_)) * half;
       const vector K3_offset_unpaid = K3_offset_cost - tank_;
+      tank_ = vector::where(K3_offset_unpaid, tank_, tank_ - K3_offset_cost);
       // r goes home where the tank pays
       K3_offset_ = vector::where(K3_offset_unpaid, K3_offset_, K3_offset_after);
-      tank_ = vector::where(K3_offset_unpaid, tank_, tank_ - K3_offset_cost);
       // π
       held_force_ = K3 * (K3_elongation_ - K3_offset_) +
           (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +

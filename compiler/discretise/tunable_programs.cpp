@@ -9,6 +9,7 @@
 #include "discretise/rounding.hpp"
 #include "discretise/tuned_springs.hpp"
 #include "law/check_law.hpp"
+#include "law/empty_law.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -448,14 +449,9 @@ class ProgramsBuilder {
 };
 
 UpdateLaw without_programs(UpdateLaw law) {
-  UpdateLaw bare;
-  bare.scalar = law.scalar;
-  bare.scheme = law.scheme;
-  bare.state_input = law.state_input;
-  bare.sample_period = law.sample_period;
+  UpdateLaw bare = empty_law_like(law);
   bare.damping = law.damping;
   bare.largest_damping = law.largest_damping;
-  bare.flush_threshold = law.flush_threshold;
   bare.mode_form = law.mode_form;
   bare.tunable = std::move(law.tunable);
   return bare;

@@ -127,16 +127,6 @@ class Appending {
 
 }  // namespace
 
-UpdateLaw empty_law_like(const UpdateLaw& law) {
-  UpdateLaw empty;
-  empty.scalar = law.scalar;
-  empty.scheme = law.scheme;
-  empty.state_input = law.state_input;
-  empty.sample_period = law.sample_period;
-  empty.flush_threshold = law.flush_threshold;
-  return empty;
-}
-
 AppendedLaw append_law(LawWriter& writer, const std::string& name, const UpdateLaw& own,
                        const std::map<VariableId, VariableId>& known) {
   return Appending(writer, name, own, known).result();

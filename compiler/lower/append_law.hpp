@@ -19,9 +19,6 @@ struct AppendedLaw {
   VariableId at(VariableId own) const { return own == no_variable ? own : place.at(own); }
 };
 
-// A law without tables and programs, of the same scalar and sampling.
-UpdateLaw empty_law_like(const UpdateLaw& law);
-
 // `known`: variables of the port's law that exist in the law of all already. The port has no tunables. The brake
 // command that it remembers for refused samples is left out, since the brake is commanded for all ports together.
 // Statements no longer tell which elements they belong to, since every port numbers its elements by itself.

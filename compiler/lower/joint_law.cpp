@@ -9,6 +9,7 @@
 
 #include "discretise/law_writer.hpp"
 #include "law/check_law.hpp"
+#include "law/empty_law.hpp"
 #include "law/walk.hpp"
 #include "lower/append_law.hpp"
 #include "lower/term_writer.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "law/check_law.hpp"
+#include "law/empty_law.hpp"
 #include "lower/append_law.hpp"
 
 namespace dashpot::compiler {

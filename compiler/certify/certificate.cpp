@@ -358,13 +358,13 @@ Certificate decided_over_box(UpdateLaw& law, const SampledLoop& loop, bool has_s
 // What is told beside: of energy between samples, the encoder's steps and the motor's limits.
 void look_beyond_bound(Certificate& result, const UpdateLaw& law, const std::optional<SlipMotor>& slips) {
   const SampledLoop& loop = result.loop;
-  const MotorConstants linear = linear_motor_constants(law);
-  const bool is_one_linear_law = motor_constants(law).has_value();
+  const std::optional<MotorConstants> motor = motor_constants(law);
+  const MotorConstants linear = motor ? *motor : linear_motor_constants(law);
   if (slips) result.energy = check_energy_lemma_with_slips(linear, parts_behind_slips(law));
-  else if (is_one_linear_law) result.energy = check_energy_lemma(linear);
-  if (is_one_linear_law) result.quantisation_gain = quantisation_gain(linear, loop);
+  else if (motor) result.energy = check_energy_lemma(linear);
+  if (motor) result.quantisation_gain = quantisation_gain(linear, loop);
   else if (slips) result.quantisation_gain = quantisation_gain(linear, *slips, loop);
-  if (!is_one_linear_law) result.energy.rounding_share = rounding_of_step(law, {&law.output});
+  if (!motor) result.energy.rounding_share = rounding_of_step(law, {&law.output});
   result.limits = motor_limits(law, slips, loop, result.bound.needed, assured_damping(loop, surely_told(law)));
 }
 
@@ -378,6 +378,10 @@ void look_beyond_box(Certificate& result, const UpdateLaw& law) {
                                         assured_damping(loop, surely_told(law)));
 }
 
+Certificate decided_as_it_is(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
+  return law.tunable ? decided_over_box(law, loop, slips.has_value()) : decided(law, loop, slips, std::nullopt);
+}
+
 }  // namespace
 
 Certificate beyond_numbers(const SampledLoop& loop) {
@@ -388,16 +392,15 @@ Certificate beyond_numbers(const SampledLoop& loop) {
 }
 
 Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
-  Certificate result = certify_in_search(law, loop, slips);
-  if (!has_finite_numbers(law)) return result;
+  if (!has_finite_numbers(law)) return beyond_numbers(loop);
+  Certificate result = decided_as_it_is(law, loop, slips);
   law.tunable ? look_beyond_box(result, law) : look_beyond_bound(result, law, slips);
   if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
   return result;
 }
 
 Certificate certify_in_search(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
-  if (!has_finite_numbers(law)) return beyond_numbers(loop);
-  return law.tunable ? decided_over_box(law, loop, slips.has_value()) : decided(law, loop, slips, std::nullopt);
+  return has_finite_numbers(law) ? decided_as_it_is(law, loop, slips) : beyond_numbers(loop);
 }
 
 Certificate weighed_by_gap(UpdateLaw& law, const SampledLoop& loop, const SlipMotor& slips, double gap) {

@@ -55,8 +55,7 @@ void TunedSprings::declare() {
   if (has_offsets())
     for (int i = 0; i < head_.hold.samples; ++i)
       owed_.push_back(numbers_.scalar(i == 0 ? "owed" : "owed_before", writer_.force(),
-                                      "forces of which offsets that went home have let go, and which are still held",
-                                      Role::state));
+                                      "of springs whose offsets went home, that the motor still holds", Role::state));
   if (is_behind_map() && some_change)
     sampled_tank_ = numbers_.scalar("sampled_tank", "J", "T of the last sample", Role::state);
   if (is_behind_map() && static_spring() != nullptr && static_spring()->offset != nothing)

@@ -153,8 +153,9 @@ class TunedSprings {
   VariableId held_force_;
   VariableId tank_ = nothing, sampled_tank_ = nothing, stiffest_share_ = nothing, shed_ = nothing, dent_ = nothing,
              returned_ = nothing, static_offset_now_ = nothing;
-  std::vector<VariableId>
-      owed_;                     // D of the moves of each of the last samples, the newest first; empty: not counted [N]
+  // By how much the motor's force is behind those of the springs, from moves of offsets in each of the last samples,
+  // the newest first; empty where that is not counted [N].
+  std::vector<VariableId> owed_;
   ExpressionId free_ = nothing;  // in update(): of T, what no sample to come can take
   ExpressionId newly_owed_ = nothing;
 };

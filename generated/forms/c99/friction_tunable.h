@@ -322,9 +322,9 @@ static inline double friction_tunable_parameter(const friction_tunable *self, in
 }
 
 // Parameters in turn. Call it right after the step of a sample, and take the command from the output of that sample
-// without another update: so the force from before is held no longer, and a spring that changes injects no energy. Bit i of
-// the result: parameter i was beyond its range and is at its bound now, or it was NaN and is as it was. What waits
-// for an update belongs to the parameters before.
+// without another update: so the force from before is held no longer, and a spring that changes injects no energy.
+// Bit i of the result: parameter i was beyond its range and is at its bound now, or it was NaN and is as it was. What
+// waits for an update belongs to the parameters before.
 static inline unsigned friction_tunable_set_values(friction_tunable *self, const double *wanted) {
   friction_tunable_update(self);
   unsigned clamped = 0u;

@@ -216,9 +216,9 @@ static inline double second_order_maxwell_parameter(const second_order_maxwell *
 }
 
 // Parameters in turn. Call it right after the step of a sample, and take the command from the output of that sample
-// without another update: so the force from before is held no longer, and a spring that changes injects no energy. Bit i of
-// the result: parameter i was beyond its range and is at its bound now, or it was NaN and is as it was. What waits
-// for an update belongs to the parameters before.
+// without another update: so the force from before is held no longer, and a spring that changes injects no energy.
+// Bit i of the result: parameter i was beyond its range and is at its bound now, or it was NaN and is as it was. What
+// waits for an update belongs to the parameters before.
 static inline unsigned second_order_maxwell_set_values(second_order_maxwell *self, const double *wanted) {
   (void)self;
   (void)wanted;

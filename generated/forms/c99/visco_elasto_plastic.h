@@ -220,9 +220,9 @@ static inline double visco_elasto_plastic_parameter(const visco_elasto_plastic *
 }
 
 // Parameters in turn. Call it right after the step of a sample, and take the command from the output of that sample
-// without another update: so the force from before is held no longer, and a spring that changes injects no energy. Bit i of
-// the result: parameter i was beyond its range and is at its bound now, or it was NaN and is as it was. What waits
-// for an update belongs to the parameters before.
+// without another update: so the force from before is held no longer, and a spring that changes injects no energy.
+// Bit i of the result: parameter i was beyond its range and is at its bound now, or it was NaN and is as it was. What
+// waits for an update belongs to the parameters before.
 static inline unsigned visco_elasto_plastic_set_values(visco_elasto_plastic *self, const double *wanted) {
   (void)self;
   (void)wanted;

@@ -7,6 +7,7 @@
 
 #include "decompose/observer_response.hpp"
 #include "network/law.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {

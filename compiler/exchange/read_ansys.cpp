@@ -67,7 +67,7 @@ class AnsysTable {
       if (!line.fields[i].text.empty()) constants[static_cast<int>(*first) + static_cast<int>(i) - 2] = line.fields[i];
   }
 
-  void finish(std::vector<MaterialSeries>& found, Diagnostics& diagnostics) const {
+  void append_to(std::vector<MaterialSeries>& found, Diagnostics& diagnostics) const {
     for (const Field& field : fields_)
       found.push_back({fields_.size() == 1 ? material_ : material_ + field.name,
                        series_of(field.constants, place_, diagnostics), place_});
@@ -87,26 +87,22 @@ class AnsysTable {
 }  // namespace
 
 std::vector<MaterialSeries> read_ansys(const SourceFile& file, Diagnostics& diagnostics) {
-  std::vector<MaterialSeries> found;
-  std::optional<AnsysTable> table;
-  const auto finish = [&] {
-    if (table) table->finish(found, diagnostics);
-    table.reset();
-  };
+  std::vector<AnsysTable> tables;
+  bool is_within = false;
   for (const DeckLine& whole : deck_lines(file)) {
     const DeckLine line = without_remark(whole);
     if (is_word(line.fields[0], "tb") && line.fields.size() > 1) {
-      finish();
       const bool is_shear = line.fields.size() < 6 || line.fields[5].text.empty() || is_word(line.fields[5], "shea");
-      if (is_word(line.fields[1], "pron") && is_shear)
-        table.emplace(line.fields.size() > 2 ? line.fields[2].text : "", line.span);
-    } else if (table && (is_word(line.fields[0], "tbte") || is_word(line.fields[0], "tbfi"))) {
-      table->begin_field(line);
-    } else if (table && is_word(line.fields[0], "tbda")) {
-      table->add(line, diagnostics);
+      is_within = is_word(line.fields[1], "pron") && is_shear;
+      if (is_within) tables.emplace_back(line.fields.size() > 2 ? line.fields[2].text : "", line.span);
+    } else if (is_within && (is_word(line.fields[0], "tbte") || is_word(line.fields[0], "tbfi"))) {
+      tables.back().begin_field(line);
+    } else if (is_within && is_word(line.fields[0], "tbda")) {
+      tables.back().add(line, diagnostics);
     }
   }
-  finish();
+  std::vector<MaterialSeries> found;
+  for (const AnsysTable& table : tables) table.append_to(found, diagnostics);
   return found;
 }
 

@@ -2,6 +2,7 @@
 
 #include "exchange/prony_format.hpp"
 #include "exchange/read_formats.hpp"
+#include "network/name_rules.hpp"
 #include "source/excerpt.hpp"
 
 namespace dashpot::compiler {

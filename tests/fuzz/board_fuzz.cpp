@@ -44,9 +44,9 @@ class input {
   std::uint8_t byte() { return at_ < size_ ? data_[at_++] : std::uint8_t{0}; }
   template <class Number>
   Number number() {
-    std::uint8_t bytes[sizeof(Number)];
-    for (std::uint8_t& one : bytes) one = byte();
     Number any;
+    unsigned char bytes[sizeof any];
+    for (std::size_t i = 0; i < sizeof any; ++i) bytes[i] = byte();
     std::memcpy(&any, bytes, sizeof any);
     return any;
   }

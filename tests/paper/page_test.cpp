@@ -26,11 +26,11 @@ using namespace dashpot::paper;
 Limits some_limits() {
   Limits limits;
   const std::vector<double> cutoffs = chosen_list("limits.cutoffs");
-  const Limits::Row row{{"mode, backlash and noise", 100, 0.1, 0.1, 0.1},
-                        {7, 40},
-                        {40, 40},
-                        cutoffs,
-                        std::vector<Limits::Bound>(cutoffs.size(), {10, 20})};
+  Limits::Row row;
+  row.faults = {"mode, backlash and noise", 100, 0.1, 0.1, 0.1};
+  row.raw = {7, 40}, row.filtered = {40, 40};
+  row.cutoffs = cutoffs;
+  row.by_cutoff.assign(cutoffs.size(), {10, 20});
   limits.rows.assign(5, row);
   for (const double inertia : chosen_list("limits.inertias"))
     for (const double mode : chosen_list("limits.modes")) {

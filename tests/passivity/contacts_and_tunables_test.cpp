@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "law/evaluate.hpp"
 #include "random_cases.hpp"
 #include "source/render.hpp"
 #include "support/repetitions.hpp"

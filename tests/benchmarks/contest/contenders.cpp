@@ -11,6 +11,7 @@
 #include "needle.hpp"
 #include "printed_laws.hpp"
 #include "two_kelvins.hpp"
+#include "two_kelvins_tunable.hpp"
 
 namespace dashpot::contest {
 namespace {
@@ -59,6 +60,21 @@ void add_ours(std::vector<contender>& all, const std::string& network) {
   all.push_back(split<Law>(network, "dashpot, split"));
 }
 
+// All parameters are taken, and all coefficients computed from them, behind each sample.
+template <class Law>
+class set_each_sample {
+ public:
+  command<double> step(double position, double velocity) noexcept {
+    const command<double> told = law_.step(position, velocity);
+    law_.set(values_);
+    return told;
+  }
+
+ private:
+  Law law_;
+  typename Law::parameters values_;
+};
+
 template <class Network>
 void add_maxwell(std::vector<contender>& all, const std::string& network) {
   all.push_back(fused<printed_maxwell<Network>>(network, "as printed"));
@@ -86,12 +102,15 @@ void add_kelvin(std::vector<contender>& all, const std::string& network) {
   all.push_back(fused<element_list<two_kelvins>>(network, "virtual element list"));
   ADD_FAUST(two_kelvins, two_kelvins);
   add_ours<generated::two_kelvins>(all, network);
+  all.push_back(fused<generated::two_kelvins_tunable>(network, "dashpot, tunable"));
+  all.push_back(fused<set_each_sample<generated::two_kelvins_tunable>>(network, "dashpot, set each sample"));
 }
 
 // No matrix describes a slip, so Eigen has no part in it.
 void add_needle(std::vector<contender>& all, const std::string& network) {
   all.push_back(fused<printed_needle>(network, "as printed"));
-  all.push_back(fused<hand_needle>(network, "by hand, scalar"));
+  all.push_back(fused<hand_needle>(network, "by hand, both bounds"));
+  all.push_back(fused<hand_needle_branches>(network, "by hand, branches"));
   all.push_back(fused<element_list<needle>>(network, "virtual element list"));
   ADD_FAUST(needle, needle);
   add_ours<generated::needle>(all, network);

@@ -197,4 +197,26 @@ class hand_needle {
   double force_ = 0, last_position_ = 0;
 };
 
+// The same by branches: where one of them is foreseen, the next sample need not wait for this one's force.
+class hand_needle_branches {
+ public:
+  command<double> step(double position, double velocity) noexcept {
+    const double trial = force_ + needle::stiffness * (position - last_position_);
+    if (!is_finite(trial) || !is_finite(velocity)) return {needle::damping[0], 0};
+    last_position_ = position;
+    if (trial > needle::yield_force) return slide(needle::yield_force);
+    if (trial < -needle::yield_force) return slide(-needle::yield_force);
+    force_ = awake(trial);
+    return {needle::damping[0], trial};
+  }
+
+ private:
+  command<double> slide(double force) noexcept {
+    force_ = force;
+    return {needle::damping[0] + needle::damping[1], force};
+  }
+
+  double force_ = 0, last_position_ = 0;
+};
+
 }  // namespace dashpot::contest

@@ -33,7 +33,8 @@ motion motion_for(const std::string& network) {
     for (int i = 0; i <= samples; ++i) places.push_back(std::uniform_real_distribution<>(-7e-4, 7e-4)(random));
     return along([&](int i) { return places[static_cast<std::size_t>(i + 1)]; });
   }
-  return along([](int i) { return 0.005 * (1 - std::cos(turn(i))); });
+  // At 0 before the first sample, so that velocities are changes of position from the first on.
+  return along([](int i) { return 0.005 * (1 - std::cos(turn(i + 1))); });
 }
 
 }  // namespace dashpot::contest

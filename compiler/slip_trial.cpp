@@ -13,6 +13,7 @@
 
 #include "certify/convex_search.hpp"
 #include "law/evaluate.hpp"
+#include "network/match.hpp"
 #include "network/port_units.hpp"
 
 namespace dashpot::compiler {

@@ -1,5 +1,7 @@
 #include "axes/port_map.hpp"
 
+#include "network/match.hpp"
+
 namespace dashpot::compiler::axes {
 namespace {
 
@@ -30,10 +32,15 @@ Circle ball(const Pair<double>& centre, double radius) { return {centre, radius,
 Circle cavity(const Pair<double>& centre, double radius) { return {centre, radius, -1}; }
 
 std::optional<Pair<double>> peak_in(const PortMap& map, const Box& workspace) {
-  if (const Band* const band = std::get_if<Band>(&map)) return crossing(*band, workspace);
-  const Circle* const circle = std::get_if<Circle>(&map);
-  const bool is_in = circle && workspace[0].holds(circle->centre[0]) && workspace[1].holds(circle->centre[1]);
-  return is_in ? std::optional(circle->centre) : std::nullopt;
+  using Place = std::optional<Pair<double>>;
+  return match(
+      map, [](const Plane&) -> Place { return std::nullopt; },
+      [&](const Circle& circle) -> Place {
+        const bool is_in = workspace[0].holds(circle.centre[0]) && workspace[1].holds(circle.centre[1]);
+        return is_in ? Place(circle.centre) : std::nullopt;
+      },
+      [&](const Band& band) -> Place { return crossing(band, workspace); },
+      [](const Grid&) -> Place { return std::nullopt; });
 }
 
 Band line(const Pair<double>& through, const Pair<double>& direction, double radius) {

@@ -6,6 +6,7 @@
 #include "axes/best_first.hpp"
 #include "axes/curvature.hpp"
 #include "axes/weighed.hpp"
+#include "network/match.hpp"
 
 namespace dashpot::compiler::axes {
 
@@ -55,17 +56,23 @@ std::vector<ForceForm> force_ends(const PortLoad& load, const Interval& depth, c
 // Whether the map's own curvature can only lessen the sum: that of a ball or a band that pushes outward (M ≥ 0), and
 // the other way round for a cavity.
 bool is_lessened_by_bend(const PortMap& map, const Interval& force) {
-  const Circle* circle = std::get_if<Circle>(&map);
-  if (circle != nullptr && circle->sign < 0) return force.high <= 0;
-  return (circle != nullptr || std::holds_alternative<Band>(map)) && force.low >= 0;
+  return match(
+      map, [](const Plane&) { return false; },
+      [&](const Circle& circle) { return circle.sign < 0 ? force.high <= 0 : force.low >= 0; },
+      [&](const Band&) { return force.low >= 0; }, [](const Grid&) { return false; });
 }
 
 // An upper bound of Jᵀ ∇w ∇wᵀ J where the direction of ∇w is not known, as at a centre and on a line.
 template <typename S>
 std::optional<Symmetric<S>> steepest(const PortMap& map, const Pose<S>& at) {
-  if (const Band* band = std::get_if<Band>(&map)) return outer(at_joints(at, constant<S>(band->normal)));
-  if (std::holds_alternative<Circle>(map)) return at_joints(at, Symmetric<S>{S(1), S(0), S(1)});
-  return std::nullopt;
+  using Bound = std::optional<Symmetric<S>>;
+  return match(
+      map, [](const Plane&) -> Bound { return std::nullopt; },
+      [&](const Circle&) -> Bound {
+        return at_joints(at, Symmetric<S>{S(1), S(0), S(1)});
+      },
+      [&](const Band& band) -> Bound { return outer(at_joints(at, constant<S>(band.normal))); },
+      [](const Grid&) -> Bound { return std::nullopt; });
 }
 
 // Joints when a force is commanded, and all that they reach while it is held.

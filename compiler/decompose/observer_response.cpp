@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "network/match.hpp"
+
 namespace dashpot::compiler {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "network/match.hpp"
 #include "network/port_units.hpp"
 
 namespace dashpot::compiler::fitting {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "law/walk.hpp"
+#include "network/match.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -127,10 +128,10 @@ class Check {
   }
 
   void check_step(const Statement& statement) const {
-    if (const auto* tree = std::get_if<SolveTree>(&statement.step))
-      require(law_.couplings.has(tree->coupling), "a step solves no coupling");
-    if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
-      require(law_.networks.has(network->network), "a step solves no network");
+    match(
+        statement.step, [](const Assign&) {},
+        [&](const SolveTree& tree) { require(law_.couplings.has(tree.coupling), "a step solves no coupling"); },
+        [&](const SolveNetwork& solve) { require(law_.networks.has(solve.network), "a step solves no network"); });
     require(law_.variables.has(statement.target) && law_.expressions.has(statement.value),
             "a statement without target or value");
   }

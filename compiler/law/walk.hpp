@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "law/update_law.hpp"
+#include "network/match.hpp"
 
 namespace dashpot::compiler {
 
@@ -33,10 +34,10 @@ void each_solved(Law& law, const Visit& visit) {
 // The table that a statement solves. Out: false, without a visit, where it assigns.
 template <class Visit>
 bool visit_solved(const UpdateLaw& law, const Statement& statement, const Visit& visit) {
-  if (const auto* tree = std::get_if<SolveTree>(&statement.step)) return visit(law.couplings[tree->coupling]), true;
-  if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
-    return visit(law.networks[network->network]), true;
-  return false;
+  return match(
+      statement.step, [](const Assign&) { return false; },
+      [&](const SolveTree& tree) { return visit(law.couplings[tree.coupling]), true; },
+      [&](const SolveNetwork& network) { return visit(law.networks[network.network]), true; });
 }
 
 // What a step finds beside the force, where something follows it.

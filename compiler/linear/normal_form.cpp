@@ -5,6 +5,7 @@
 
 #include "linear/modal_reduction.hpp"
 #include "network/law.hpp"
+#include "network/match.hpp"
 
 namespace dashpot::compiler {
 namespace {

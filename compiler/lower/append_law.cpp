@@ -4,6 +4,7 @@
 #include <set>
 
 #include "law/walk.hpp"
+#include "network/match.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -108,10 +109,10 @@ class Appending {
       s.target = result_.at(s.target);
       s.value = ExpressionId(s.value.place() + expressions_);
       s.origins.clear();
-      if (auto* tree = std::get_if<SolveTree>(&s.step))
-        tree->coupling = CouplingId(tree->coupling.place() + couplings_);
-      if (auto* net = std::get_if<SolveNetwork>(&s.step))
-        net->network = SlipNetworkId(net->network.place() + networks_);
+      match(
+          s.step, [](Assign&) {},
+          [&](SolveTree& tree) { tree.coupling = CouplingId(tree.coupling.place() + couplings_); },
+          [&](SolveNetwork& net) { net.network = SlipNetworkId(net.network.place() + networks_); });
       moved.push_back(std::move(s));
     }
     return moved;

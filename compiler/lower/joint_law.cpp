@@ -12,6 +12,7 @@
 #include "law/empty_law.hpp"
 #include "law/walk.hpp"
 #include "lower/append_law.hpp"
+#include "network/match.hpp"
 #include "lower/term_writer.hpp"
 
 namespace dashpot::compiler {
@@ -248,25 +249,26 @@ class Merging {
     }
     for (const PortLaw& port : ports_) {
       terms.call(port.law.damping, joined(port.name, "damping"), "N·s/m", "b of the port");
-      if (const auto* circle = std::get_if<axes::Circle>(&port.map)) {
-        terms.call(circle->centre[0], joined(port.name, "centre_x"), "m", "of the circle");
-        terms.call(circle->centre[1], joined(port.name, "centre_y"), "m", "of the circle");
-        terms.call(circle->radius, joined(port.name, "radius"), "m", "of the circle");
-      }
-      if (const auto* plane = std::get_if<axes::Plane>(&port.map))
-        terms.call(plane->offset, joined(port.name, "offset"), "m", "of the plane from the origin");
-      if (const auto* grid = std::get_if<axes::Grid>(&port.map)) {
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-          const char* const of = axis == 0 ? "x" : "y";
-          terms.call(1 / grid->spacing[axis], joined(port.name, std::string("cells_per_length_") + of), "1/m",
-                     "of the grid");
-          terms.call(grid->start[axis] - grid->spacing[axis], joined(port.name, std::string("grid_before_") + of), "m",
-                     "a cell before the first knot");
-          terms.call(double(grid->knots[axis]), joined(port.name, std::string("last_cell_") + of), "1", "of the grid");
-        }
-      }
-      if (const auto* band = std::get_if<axes::Band>(&port.map))
-        terms.call(band->radius, joined(port.name, "radius"), "m", "of the band");
+      const auto call = [&](double value, const std::string& name, const char* unit, const char* meaning) {
+        terms.call(value, joined(port.name, name), unit, meaning);
+      };
+      match(
+          port.map,
+          [&](const axes::Plane& plane) { call(plane.offset, "offset", "m", "of the plane from the origin"); },
+          [&](const axes::Circle& circle) {
+            call(circle.centre[0], "centre_x", "m", "of the circle");
+            call(circle.centre[1], "centre_y", "m", "of the circle");
+            call(circle.radius, "radius", "m", "of the circle");
+          },
+          [&](const axes::Band& band) { call(band.radius, "radius", "m", "of the band"); },
+          [&](const axes::Grid& grid) {
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+              const std::string of = axis == 0 ? "x" : "y";
+              call(1 / grid.spacing[axis], "cells_per_length_" + of, "1/m", "of the grid");
+              call(grid.start[axis] - grid.spacing[axis], "grid_before_" + of, "m", "a cell before the first knot");
+              call(double(grid.knots[axis]), "last_cell_" + of, "1", "of the grid");
+            }
+          });
     }
     if (!plan_.field.is_uniform())
       for (std::size_t axis = 0; axis < 2; ++axis) {

@@ -25,15 +25,6 @@ struct Slip {
 
 using Law = std::variant<Spring, Damper, Slip>;
 
-// One case for each kind of element. With a new kind this does not compile until the new kind has its case.
-template <class AnyLaw, class... Cases>
-decltype(auto) match(AnyLaw&& law, Cases... cases) {
-  struct All : Cases... {
-    using Cases::operator()...;
-  };
-  return std::visit(All{std::move(cases)...}, std::forward<AnyLaw>(law));
-}
-
 using NodeIndex = std::size_t;
 inline constexpr NodeIndex ground = 0;
 inline constexpr NodeIndex tool = 1;

@@ -1,5 +1,7 @@
 #include "network/law.hpp"
 
+#include "network/match.hpp"
+
 namespace dashpot::compiler {
 
 Law make_law(ElementKind kind, double value) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <stdexcept>
 #include <vector>
 
 #include "certify/slip_motor.hpp"
 #include "network/law.hpp"
+#include "network/match.hpp"
 #include "verify/reference_grid.hpp"
 #include "verify/reference_slips.hpp"
 
@@ -72,22 +74,26 @@ NearTips near_tips(const axes::Arm& arm, const ReferencePair& q) {
   return tips;
 }
 
-// Of a map that is no grid.
 Reference depth_at(const axes::PortMap& map, const ReferencePair& tip) {
   const Reference blunt = Reference(axes::blunting) * Reference(axes::blunting);
   const auto from = [&](const axes::Pair<double>& point) {
     return ReferencePair{tip[0] - Reference(point[0]), tip[1] - Reference(point[1])};
   };
-  if (const auto* plane = std::get_if<axes::Plane>(&map))
-    return Reference(plane->offset) + Reference(plane->slope[0]) * tip[0] + Reference(plane->slope[1]) * tip[1];
-  if (const auto* circle = std::get_if<axes::Circle>(&map)) {
-    const auto [x, y] = from(circle->centre);
-    return Reference(circle->sign) * (Reference(circle->radius) - sqrt(Reference(x * x + y * y + blunt)));
-  }
-  const auto& band = std::get<axes::Band>(map);
-  const auto [x, y] = from(band.through);
-  const Reference across = Reference(band.normal[0]) * x + Reference(band.normal[1]) * y;
-  return Reference(band.radius) - sqrt(Reference(across * across + blunt));
+  return match(
+      map,
+      [&](const axes::Plane& plane) -> Reference {
+        return Reference(plane.offset) + Reference(plane.slope[0]) * tip[0] + Reference(plane.slope[1]) * tip[1];
+      },
+      [&](const axes::Circle& circle) -> Reference {
+        const auto [x, y] = from(circle.centre);
+        return Reference(circle.sign) * (Reference(circle.radius) - sqrt(Reference(x * x + y * y + blunt)));
+      },
+      [&](const axes::Band& band) -> Reference {
+        const auto [x, y] = from(band.through);
+        const Reference across = Reference(band.normal[0]) * x + Reference(band.normal[1]) * y;
+        return Reference(band.radius) - sqrt(Reference(across * across + blunt));
+      },
+      [](const axes::Grid&) -> Reference { throw std::logic_error("a grid's depth is that of its own cubics"); });
 }
 
 struct SymmetricReference {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "network/disjoint_sets.hpp"
+#include "network/match.hpp"
 #include "verify/reference_pencil.hpp"
 
 namespace dashpot::compiler {

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "network/match.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -77,23 +79,23 @@ Reference in_double(const Reference& value) { return value.convert_to<double>();
 Reference squared(double value) { return in_double(Reference(value) * Reference(value)); }
 
 void add_map(const Port& port, std::map<std::string, Reference>& all) {
-  if (const auto* circle = std::get_if<axes::Circle>(&port.map)) {
-    all[port.name + "_centre_x"] = abs(Reference(circle->centre[0]));
-    all[port.name + "_centre_y"] = abs(Reference(circle->centre[1]));
-    all[port.name + "_radius"] = circle->radius;
-  }
-  if (const auto* plane = std::get_if<axes::Plane>(&port.map))
-    all[port.name + "_offset"] = abs(Reference(plane->offset));
-  if (const auto* grid = std::get_if<axes::Grid>(&port.map)) {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const char* const of = axis == 0 ? "x" : "y";
-      all[fmt::format("{}_cells_per_length_{}", port.name, of)] = in_double(1 / Reference(grid->spacing[axis]));
-      all[fmt::format("{}_grid_before_{}", port.name, of)] =
-          abs(in_double(Reference(grid->start[axis]) - Reference(grid->spacing[axis])));
-      all[fmt::format("{}_last_cell_{}", port.name, of)] = Reference(double(grid->knots[axis]));
-    }
-  }
-  if (const auto* band = std::get_if<axes::Band>(&port.map)) all[port.name + "_radius"] = band->radius;
+  match(
+      port.map, [&](const axes::Plane& plane) { all[port.name + "_offset"] = abs(Reference(plane.offset)); },
+      [&](const axes::Circle& circle) {
+        all[port.name + "_centre_x"] = abs(Reference(circle.centre[0]));
+        all[port.name + "_centre_y"] = abs(Reference(circle.centre[1]));
+        all[port.name + "_radius"] = circle.radius;
+      },
+      [&](const axes::Band& band) { all[port.name + "_radius"] = band.radius; },
+      [&](const axes::Grid& grid) {
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          const char* const of = axis == 0 ? "x" : "y";
+          all[fmt::format("{}_cells_per_length_{}", port.name, of)] = in_double(1 / Reference(grid.spacing[axis]));
+          all[fmt::format("{}_grid_before_{}", port.name, of)] =
+              abs(in_double(Reference(grid.start[axis]) - Reference(grid.spacing[axis])));
+          all[fmt::format("{}_last_cell_{}", port.name, of)] = Reference(double(grid.knots[axis]));
+        }
+      });
 }
 
 }  // namespace

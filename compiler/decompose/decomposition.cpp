@@ -55,11 +55,9 @@ class Decomposer {
   // The canonical form with the spring shares of the realisation whose observer is next to the tool.
   LinearForm realisation() const {
     if (!tree_) return form_;
-    const auto* name = std::get_if<std::string>(&choices_.decomposition);
-    const bool largest = name != nullptr && *name == "largest-observer";
-    return linear_form(observe(*tree_, network_, largest ? ObserverRule::largest : ObserverRule::most_dissipative,
-                               device_.reference_frequency())
-                           .realisation);
+    const ObserverRule rule =
+        is_named(choices_, "largest-observer") ? ObserverRule::largest : ObserverRule::most_dissipative;
+    return linear_form(observe(*tree_, network_, rule, device_.reference_frequency()).realisation);
   }
 
   Candidate weigh(const Split& split, const LinearForm& realisation) const {

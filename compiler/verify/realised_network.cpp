@@ -12,9 +12,8 @@ LawFacts facts_of(const CertificateFile& certificate) {
 Network realised(const Network& network, const CertificateFile& certificate, const PortDevice& device) {
   const std::optional<Tree> tree = series_parallel_tree(network);
   if (certificate.choices.state_input != StateInput::nodal || !tree) return network;
-  const auto* name = std::get_if<std::string>(&certificate.choices.decomposition);
   const ObserverRule rule =
-      name && *name == "largest-observer" ? ObserverRule::largest : ObserverRule::most_dissipative;
+      is_named(certificate.choices, "largest-observer") ? ObserverRule::largest : ObserverRule::most_dissipative;
   return observe(*tree, network, rule, device.reference_frequency()).realisation;
 }
 

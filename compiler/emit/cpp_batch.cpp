@@ -48,7 +48,8 @@ class BatchPrinter {
                       number, state));
     });
     for (std::string& line : lines_of_point(law_.rest)) batch.reset.push_back(std::move(line));
-    batch.headers = headers();
+    batch.headers = headers_of(law_);
+    if (!has_loops(law_)) batch.headers.push_back("dashpot/vector.hpp");
     batch.constants = constants();
     if (law_.tunable) append_set(batch);
     return batch;
@@ -175,17 +176,6 @@ class BatchPrinter {
         "  scalar* const state = state_of(point);"};
     for (const std::string& line : lines_of_point(set_program(law_), true)) batch.set.push_back("  " + line);
     for (const char* line : {"  return clamped;", "}", ""}) batch.set.push_back(line);
-  }
-
-  std::vector<std::string> headers() const {
-    std::vector<std::string> headers = {"dashpot/command.hpp"};
-    if (uses(law_, Operation::mean_decay)) headers.push_back("dashpot/exponential.hpp");
-    if (uses(law_, Operation::square_root)) headers.push_back("dashpot/elementary.hpp");
-    if (!law_.networks.empty()) headers.push_back("dashpot/slip_network.hpp");
-    if (!law_.couplings.empty()) headers.push_back("dashpot/slip_tree.hpp");
-    if (law_.tunable) headers.push_back("dashpot/tunable_range.hpp");
-    headers.push_back("dashpot/vector.hpp");
-    return headers;
   }
 
   // With the number of each in the storage.

@@ -35,7 +35,8 @@ class CppPrinter {
 
   CppProgram print() {
     CppProgram program;
-    program.headers = headers();
+    program.headers = headers_of(law_);
+    if (timing_ == Timing::constant) program.headers.insert(program.headers.begin(), "dashpot/branch_free.hpp");
     program.output = statements_.lines_of(law_.output);
     if (law_.joints) program.output.insert(program.output.begin(), joint_inputs());
     program.keep = statements_.kept_lines_of(law_.keep);
@@ -59,19 +60,6 @@ class CppPrinter {
   }
 
  private:
-  std::vector<std::string> headers() const {
-    std::vector<std::string> headers;
-    if (timing_ == Timing::constant) headers.push_back("dashpot/branch_free.hpp");
-    headers.push_back("dashpot/command.hpp");
-    if (!law_.networks.empty()) headers.push_back("dashpot/slip_network.hpp");
-    if (uses(law_, Operation::mean_decay)) headers.push_back("dashpot/exponential.hpp");
-    if (uses(law_, Operation::square_root)) headers.push_back("dashpot/elementary.hpp");
-    if (!law_.couplings.empty()) headers.push_back("dashpot/slip_tree.hpp");
-    if (law_.tunable) headers.push_back("dashpot/tunable_range.hpp");
-    if (has_loops(law_)) headers.push_back("dashpot/vector.hpp");
-    return headers;
-  }
-
   std::string name_of(VariableId id) const { return CppStatements::scalar_name(law_.variables[id]); }
 
   // The names that the law has for what the caller gives.
@@ -290,6 +278,17 @@ class CppPrinter {
 };
 
 }  // namespace
+
+std::vector<std::string> headers_of(const UpdateLaw& law) {
+  std::vector<std::string> headers = {"dashpot/command.hpp"};
+  if (!law.networks.empty()) headers.push_back("dashpot/slip_network.hpp");
+  if (uses(law, Operation::mean_decay)) headers.push_back("dashpot/exponential.hpp");
+  if (uses(law, Operation::square_root)) headers.push_back("dashpot/elementary.hpp");
+  if (!law.couplings.empty()) headers.push_back("dashpot/slip_tree.hpp");
+  if (law.tunable) headers.push_back("dashpot/tunable_range.hpp");
+  if (has_loops(law)) headers.push_back("dashpot/vector.hpp");
+  return headers;
+}
 
 std::string cpp_literal(double value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? fmt::format("{:#}", value) : fmt::format("{:#}f", static_cast<float>(value));

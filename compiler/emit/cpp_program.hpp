@@ -32,9 +32,12 @@ struct CppProgram {
 // Whether the code may branch, which costs nothing if branches are predicted, or takes the same time for all values.
 enum class Timing { any, constant };
 
-// Loops are laid out for these registers. In constant time: laws without couplings, networks and calls.
+// Loops are laid out for these registers. In constant time: laws without couplings and networks.
 CppProgram cpp_program(const UpdateLaw& law, const Network& network, VectorRegisters registers,
                        Timing timing = Timing::any);
+
+// Of the runtime, that the law's code calls: "dashpot/command.hpp".
+std::vector<std::string> headers_of(const UpdateLaw& law);
 
 // All of it but `set`, as templates take it, under the names of its members.
 void add_program(const CppProgram& program, CodeModel& model);

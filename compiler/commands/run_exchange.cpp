@@ -150,7 +150,7 @@ ExitStatus run_export(const Options& options, SourceFiles& files, Diagnostics& d
   if (!is_prony_series(*c, diagnostics)) return ExitStatus::input_refused;
   const PronySeries series = prony_series(c->form.linear);
   const PronyFormat format = options.exchange.format;
-  if (const auto most = most_terms_of(format); most && series.terms.size() > *most) {
+  if (const auto most = most_terms_of(format, series); most && series.terms.size() > *most) {
     diagnostics.report<DiagnosticCode::prony_too_many_terms>(c->network.name_span, c->network.name, series.terms.size(),
                                                              name_of(format), *most);
     diagnostics.note<DiagnosticCode::prony_fewer_terms>({});

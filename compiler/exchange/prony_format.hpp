@@ -36,8 +36,8 @@ struct PronyRemarks {
 };
 PronyRemarks remarks_of(const SourceFile& file);
 
-// How many terms a material of the format can have, where it is known that it has room for no more.
-std::optional<std::size_t> most_terms_of(PronyFormat format);
+// How many terms the material of such a series can have, where it is known that the format has room for no more.
+std::optional<std::size_t> most_terms_of(PronyFormat format, const PronySeries& series);
 
 // The text of a file, or of the part of an input deck, in the format's own convention. Ensures: read_prony gives the
 // same series, to the rounding of one division by a stiffness. In: a series that is passive and relaxes.

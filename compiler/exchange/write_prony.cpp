@@ -64,11 +64,12 @@ PronySeries in_convention(const PronySeries& series, PronyOf of) {
   return result;
 }
 
-// The FEBio material's arrays have six places; LS-DYNA reads 18 cards, of which one is of the long-term stiffness.
-std::optional<std::size_t> most_terms_of(PronyFormat format) {
+// The FEBio material's arrays have six places; LS-DYNA reads 18 cards, of which one is of the long-term stiffness where
+// there is any.
+std::optional<std::size_t> most_terms_of(PronyFormat format, const PronySeries& series) {
   switch (format) {
     case PronyFormat::febio: return 6;
-    case PronyFormat::ls_dyna: return 17;
+    case PronyFormat::ls_dyna: return series.long_term_stiffness() > 0 ? 17 : 18;
     default: return std::nullopt;
   }
 }

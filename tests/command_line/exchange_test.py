@@ -122,11 +122,12 @@ class Exchange(CommandTest):
 
     def test_more_terms_than_the_program_holds(self):
         """Fails if terms are written that the other program has no place for, or a series that just fits is refused."""
-        for format, most in (("febio", 6), ("ls-dyna", 17)):
+        for format, solid, most in (("febio", True, 6), ("ls-dyna", True, 17), ("ls-dyna", False, 18)):
             for count in (most, most + 1):
                 branches = ", ".join(f'{{ "series": [ {{ "spring": {10 + i} }}, {{ "damper": {2.0 ** i} }} ] }}'
                                      for i in range(count))
-                self.write("network.json", network(f'{{ "parallel": [ {{ "spring": 3 }}, {branches} ] }}'))
+                spring = '{ "spring": 3 }, ' if solid else ""
+                self.write("network.json", network(f'{{ "parallel": [ {spring}{branches} ] }}'))
                 words = ["export", "network.json", "--to", format, "-o", "deck"]
                 if count == most:
                     self.dashpot(*words)

@@ -46,7 +46,11 @@ bool is_format_1(FileKind kind, const JsonValue& root, Diagnostics& diagnostics)
 bool is_of_one_axis(FileKind kind, const JsonValue& root, Diagnostics& diagnostics) {
   const JsonMember* axes = find_member(root, "axes");
   if (axes == nullptr) return true;
-  const double number = axes->value.kind == JsonValue::Kind::number ? number_in(axes->value) : 0;
+  if (axes->value.kind != JsonValue::Kind::number) {
+    report_wrong_type("axes", axes->value, "the number 1 or 2", diagnostics);
+    return false;
+  }
+  const double number = number_in(axes->value);
   if (number == 1) return true;
   if (number != 2) diagnostics.report<DiagnosticCode::axes_number>(axes->value.span, excerpt(axes->value.text));
   else if (kind == FileKind::network) diagnostics.report<DiagnosticCode::several_axes>(axes->value.span);

@@ -350,8 +350,8 @@ class DeviceBuilder {
     reader.read("coil_lag", dimensions::time, Bound::zero_or_more, brake.coil_lag);
     reader.is_within("coil_lag", brake.coil_lag, 0, longest_time, "s");
     reader.read("slew", dimensions::current_rate, Bound::above_zero, brake.slew);
-    reader.read("critical_speed", due_.velocity, Bound::above_zero, brake.critical_speed);
-    reader.is_within("critical_speed", brake.critical_speed, lowest_speed, highest_speed, speed_unit());
+    if (reader.read("critical_speed", due_.velocity, Bound::above_zero, brake.critical_speed))
+      reader.is_within("critical_speed", brake.critical_speed, lowest_speed, highest_speed, speed_unit());
     read_damping(reader, "safe_damping", Bound::zero_or_more, brake.safe_damping);
     check_brake(reader, brake);
   }
@@ -401,12 +401,13 @@ class DeviceBuilder {
     reader.refuse_other_keys({"frequency", "damping_ratio", "mass"});
     reader.require("frequency");
     reader.require("mass");
-    reader.read("frequency", dimensions::frequency, Bound::above_zero, mechanics.mode.frequency);
-    reader.is_within("frequency", mechanics.mode.frequency, slowest_mode, 1 / device_.description.loop.sample_period,
-                     "Hz");
+    if (reader.read("frequency", dimensions::frequency, Bound::above_zero, mechanics.mode.frequency))
+      reader.is_within("frequency", mechanics.mode.frequency, slowest_mode, 1 / device_.description.loop.sample_period,
+                       "Hz");
     reader.read("damping_ratio", dimensions::number, Bound::zero_or_more, mechanics.mode.damping_ratio);
     reader.is_within("damping_ratio", mechanics.mode.damping_ratio, 0, 1, "of critical damping");
-    reader.read("mass", due_.inertia, Bound::above_zero, mechanics.mode.mass);
+    const bool has_mass = reader.read("mass", due_.inertia, Bound::above_zero, mechanics.mode.mass);
+    if (!has_mass || (around.has("inertia") && mechanics.inertia == 0)) return;
     const double least = mechanics.inertia / smallest_part;
     reader.is_within("mass", mechanics.mode.mass, least, mechanics.inertia * (smallest_part - 1) / smallest_part,
                      motion_ == motion::rotation ? "kg m^2" : "kg");

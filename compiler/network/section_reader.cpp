@@ -49,9 +49,11 @@ void SectionReader::refuse_other_keys(const std::vector<std::string>& keys, cons
   }
 }
 
-void SectionReader::read(std::string_view key, const Dimension& due, Bound bound, double& target) const {
-  if (const ValueDecl* decl = find_single(key))
-    if (const auto value = value_of(*decl, key, due, bound)) target = *value;
+bool SectionReader::read(std::string_view key, const Dimension& due, Bound bound, double& target) const {
+  const ValueDecl* decl = find_single(key);
+  const auto value = decl != nullptr ? value_of(*decl, key, due, bound) : std::nullopt;
+  if (value) target = *value;
+  return value.has_value();
 }
 
 void SectionReader::read_pair(std::string_view key, const Dimension& due, Bound bound, double& low, double& high,

@@ -37,7 +37,8 @@ class SectionReader {
   void require(std::string_view key) const;  // reports where the section, if present, lacks it and did not misspell it
   void refuse_other_keys(const std::vector<std::string>& keys, const std::vector<KeyRemedy>& remedies = {});
 
-  void read(std::string_view key, const Dimension& due, Bound bound, double& target) const;
+  // Whether it gave its value.
+  bool read(std::string_view key, const Dimension& due, Bound bound, double& target) const;
   // `may_be_one`: whether both may be the same.
   void read_pair(std::string_view key, const Dimension& due, Bound bound, double& low, double& high,
                  bool may_be_one = false) const;

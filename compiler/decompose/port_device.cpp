@@ -36,7 +36,7 @@ double noise_power_gain(any_estimator<double> estimator, double sample_period) {
 std::optional<PortDevice> PortDevice::of(const Device& device, const Network& network, Diagnostics& diagnostics) {
   const device_description& d = device.description;
   PortDevice port;
-  port.device_ = device;
+  port.take(device);
   const double steepest = network.map ? network.map->steepest() : 1;
   port.steepest_ = steepest;
   if (d.motion == network.port_motion) return port.behind_lever(steepest);
@@ -67,8 +67,15 @@ PortDevice PortDevice::at_tool() const {
 
 PortDevice PortDevice::replaced_by(const Device& device) const {
   PortDevice port = *this;
-  port.device_ = device;
+  port.take(device);
   return port;
+}
+
+// A slow filter is asked for millions of answers, and many candidates ask for what comes of them.
+void PortDevice::take(const Device& device) {
+  device_ = device;
+  const bool is_asked = estimator_is_linear() && device.description.velocity.estimator != estimator_kind::sensor;
+  noise_power_gain_ = is_asked ? noise_power_gain(estimator(), device.description.loop.sample_period) : 0;
 }
 
 std::optional<double> PortDevice::max_damping() const {
@@ -173,7 +180,7 @@ std::optional<double> PortDevice::velocity_noise() const {
   if (d.velocity.estimator == estimator_kind::sensor) return d.velocity.noise * position_scale_;
   if (!estimator_is_linear()) return std::nullopt;
   const double quantum = d.encoder.step / std::sqrt(12.0);
-  return quantum * position_scale_ * std::sqrt(noise_power_gain(estimator(), d.loop.sample_period));
+  return quantum * position_scale_ * std::sqrt(noise_power_gain_);
 }
 
 }  // namespace dashpot::compiler

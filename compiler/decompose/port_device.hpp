@@ -66,11 +66,13 @@ class PortDevice {
  private:
   using Estimator = any_estimator<double>;
   Estimator estimator() const;
+  void take(const Device& device);
 
   std::optional<Device> device_;
   double damping_scale_ = 1;  // from the joint to the tool
   double position_scale_ = 1;
   double steepest_ = 1;
+  double noise_power_gain_ = 0;  // of a linear estimator of the position
 };
 
 }  // namespace dashpot::compiler

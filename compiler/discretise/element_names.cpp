@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "discretise/law_writer.hpp"
+#include "network/name_rules.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -15,17 +16,20 @@ bool is_called(const Named& named, const std::string& name) {
          std::find(named.element_names.begin(), named.element_names.end(), name) != named.element_names.end();
 }
 
+// Members that some laws have, whatever their elements are called.
+constexpr std::string_view members_of_some[] = {"threshold", "total", "sampled_", "kept_share", "clear"};
+
 // Tables and states of a law with tunables.
 constexpr std::string_view tunable_members[] = {"tunables",  "springs", "parts",  "edges", "blocks", "cuts",   "yields",
                                                 "couplings", "nodes",   "graphs", "links", "ties",   "tables", "law_"};
 
 // States end in an underscore in the emitted class.
 bool is_member(const UpdateLaw& law, const std::string& name) {
-  if (law.tunable &&
-      std::find(std::begin(tunable_members), std::end(tunable_members), name) != std::end(tunable_members))
-    return true;
+  const auto holds = [&](const auto& list) {
+    return std::find(std::begin(list), std::end(list), name) != std::end(list);
+  };
+  if (holds(members_of_some) || (law.tunable && holds(tunable_members))) return true;
   if (law.joints && (name == "axes" || name == "brakes" || name == "commands")) return true;
-  if (name == "threshold" || name == "total" || name == "sampled_") return true;
   const std::string state = name.back() == '_' ? name.substr(0, name.size() - 1) : "";
   const auto names_state = [&](const Variable& v) { return v.is_kept() && is_called(v, state); };
   const auto names_constant = [&](const Coefficient& c) { return is_called(c, name); };
@@ -47,6 +51,9 @@ std::string name_of(const std::vector<std::size_t>& elements, const Network& net
 bool class_differs_from_members(const UpdateLaw& law, const Network& network, Diagnostics& diagnostics) {
   if (!is_member(law, network.name)) return true;
   diagnostics.report<DiagnosticCode::name_is_member>(network.name_span, "network", network.name);
+  std::string other = legal_name(network.name + "_1");
+  while (is_member(law, other)) other += "_1";
+  diagnostics.note<DiagnosticCode::write_instead>({}, other);
   return false;
 }
 

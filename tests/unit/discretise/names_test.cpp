@@ -101,7 +101,7 @@ TEST(Names, AThousandElements) {
 // Fails if the class itself can be called like one of its members: C++ takes that for a constructor.
 TEST(Names, TheClassAndItsMembers) {
   for (const char* name : {"K1_B1_gain", "K1_B1_force_", "K1_B1_energy_weight", "static_stiffness", "velocity_gain",
-                           "last_position_", "sampled_", "threshold"}) {
+                           "last_position_", "sampled_", "threshold", "clear", "kept_share"}) {
     try {
       branches(name, {{"K1", "B1"}});
       ADD_FAILURE() << name << " is accepted";

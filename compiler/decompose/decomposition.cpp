@@ -271,9 +271,12 @@ bool is_same(const Candidate& one, const Candidate& other) {
 std::string candidate_row(const Candidate& c, const char* mark) {
   const auto number = [](double value) { return fmt::format("{:.5g}", value); };
   const auto or_dash = [&](const std::optional<double>& value) { return value ? number(*value) : "-"; };
-  return fmt::format("{:<17}{:>12}  {:<9}{:>12}{:>12}{:>12}{:>12}{:>12}\n", c.name + mark, number(c.damping),
-                     name_of(c.state_input), number(c.velocity_gain), number(c.extra_damping_any_delay.value_or(0)),
-                     or_dash(c.minimum_damping), or_dash(c.motor_noise), fmt::format("{:.4g}", 100 * c.largest_error));
+  // A damping that was given is called as it was written.
+  const bool is_given = c.name == fmt::format("{}", c.damping) && c.name.size() < 12;
+  return fmt::format("{:<17}{:>12}  {:<9}{:>12}{:>12}{:>12}{:>12}{:>12}\n", c.name + mark,
+                     is_given ? c.name : number(c.damping), name_of(c.state_input), number(c.velocity_gain),
+                     number(c.extra_damping_any_delay.value_or(0)), or_dash(c.minimum_damping), or_dash(c.motor_noise),
+                     fmt::format("{:.4g}", 100 * c.largest_error));
 }
 
 std::string reason_line(const Candidate& c) {

@@ -138,6 +138,12 @@ class Json(CommandTest):
         self.assertEqual(found["candidates"][-1]["damping"], 3.5)
         self.assertEqual(found["chosen"], found["candidates"][-1]["name"])
 
+    def test_a_given_damping_has_its_digits(self):
+        """Fails if what was given cannot be told from another of the candidates by its b."""
+        rows = self.dashpot("explain", FIG_5, "--decomposition", "11.0000001").stdout.splitlines()
+        given = [row.split() for row in rows if row.startswith("11.0000001 ")]
+        self.assertEqual(given[0][:2], ["11.0000001", "11.0000001"])
+
     def test_numbers_with_a_device(self):
         """Fails if figures for a device ignore its brake: 2.8 N s/m at 50 mm is all it has."""
         found = self.explained(FIG_5, "--device", PANTOGRAPH)

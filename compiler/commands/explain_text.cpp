@@ -35,6 +35,9 @@ namespace {
 std::string kelvin_text(const Compilation& c, const PortUnits& units) {
   const LinearForm& linear = c.form.linear;
   if (linear.is_empty()) return "";
+  constexpr std::size_t most_listed = 500;  // the work grows with the square, and is a second here
+  if (linear.modes.size() > most_listed)
+    return fmt::format("generalised Kelvin form (for creep): of {} modes, left to --json\n", linear.modes.size());
   const KelvinForm creep = kelvin_form(linear);
   std::string text =
       fmt::format("generalised Kelvin form (for creep): glass compliance {:.8g} {}, fluidity {:.8g} {}\n",

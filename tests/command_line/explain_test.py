@@ -144,6 +144,16 @@ class Json(CommandTest):
         given = [row.split() for row in rows if row.startswith("11.0000001 ")]
         self.assertEqual(given[0][:2], ["11.0000001", "11.0000001"])
 
+    def test_very_many_modes(self):
+        """Fails if the text of a network with very many modes waits for its Kelvin form, or one with few lacks it."""
+        for count, listed in [(20, True), (501, False)]:
+            branches = ", ".join(f'{{ "series": [ {{ "spring": 1 }}, {{ "damper": {2 + i / 7} }} ] }}'
+                                 for i in range(count))
+            self.write("many.json", network(f'{{ "parallel": [ {branches} ] }}'))
+            said = self.dashpot("explain", "many.json").stdout
+            self.assertEqual("Kelvin element" in said, listed)
+            self.assertEqual(f"of {count} modes, left to --json" in said, not listed)
+
     def test_numbers_with_a_device(self):
         """Fails if figures for a device ignore its brake: 2.8 N s/m at 50 mm is all it has."""
         found = self.explained(FIG_5, "--device", PANTOGRAPH)

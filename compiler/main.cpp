@@ -547,7 +547,32 @@ std::string complaint_about_option(const CLI::App& app, const std::vector<std::s
   return "";
 }
 
-ExitStatus run(const CLI::App& app, const CommandLine& line) {
+// "-" is standard output where that is the default or what is written is all there is to say, and refused elsewhere.
+bool settle_dashes(const std::string& command, Options& options, Diagnostics& diagnostics) {
+  const std::string dash = "-";
+  if (options.output == dash) {
+    const bool is_folder = command == "compile" && !options.print, is_telling = command == "fit" || command == "run";
+    if (!is_folder && !is_telling) {
+      options.output.reset();
+    } else {
+      diagnostics.report<DiagnosticCode::output_is_dash>(
+          {}, command == "run" ? "--log" : "--output",
+          is_folder ? "a folder" : "a file, since standard output says how it went");
+      diagnostics.note<DiagnosticCode::dash_remedy>({}, is_folder ? "--print writes a stage to standard output; " : "");
+    }
+  }
+  for (const auto& [option, output] : {std::pair("--depfile", options.depfile),
+                                       {"--report", options.fit.report},
+                                       {"--certificate", options.certificate},
+                                       {"--proof", options.proof}})
+    if (output == dash) {
+      diagnostics.report<DiagnosticCode::output_is_dash>({}, option, "a file");
+      diagnostics.note<DiagnosticCode::dash_remedy>({}, "");
+    }
+  return !diagnostics.has_errors();
+}
+
+ExitStatus run(const CLI::App& app, CommandLine line) {
   SourceFiles files;
   Diagnostics diagnostics;
   if (line.options.without_advice) diagnostics.take_no_advice();
@@ -563,7 +588,8 @@ ExitStatus run(const CLI::App& app, const CommandLine& line) {
   std::vector<std::string> outputs;
   for (const std::optional<std::string>& output : {line.options.output, line.options.depfile, line.options.fit.report})
     if (output) outputs.push_back(*output);
-  if (contradicts_itself(line.options.choices, diagnostics) || !spares_inputs(line.options, outputs, diagnostics))
+  if (!settle_dashes(command, line.options, diagnostics) || contradicts_itself(line.options.choices, diagnostics) ||
+      !spares_inputs(line.options, outputs, diagnostics))
     status = ExitStatus::command_line_wrong;
   else status = commands.at(command)(line.options, files, diagnostics);
   tell(line.options, diagnostics);

@@ -3,7 +3,6 @@
 #include "commands/commands.hpp"
 #include "commands/web_module.hpp"
 #include "compile.hpp"
-#include "emit/write_files.hpp"
 #include "insist.hpp"
 #include "report/axes_report.hpp"
 #include "report/report.hpp"
@@ -20,7 +19,7 @@ ExitStatus report_axes(const SourceFile& network, const DeviceChoice& device, co
       compilation->has_device ? web_module(*compilation, diagnostics) : std::nullopt;
   const std::optional<std::string> page = report(*compilation, module, diagnostics);
   if (!page || diagnostics.has_errors()) return ExitStatus::input_refused;
-  return write_files("", {{*options.output, *page}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
+  return write_output(options, *page, diagnostics);
 }
 
 }  // namespace
@@ -40,7 +39,7 @@ ExitStatus run_report(const Options& options, SourceFiles& files, Diagnostics& d
   weigh_all_candidates(*compilation, choices);
   const std::optional<std::string> page = report(*compilation, web_module(*compilation, diagnostics), diagnostics);
   if (!page || diagnostics.has_errors()) return ExitStatus::input_refused;
-  return write_files("", {{*options.output, *page}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
+  return write_output(options, *page, diagnostics);
 }
 
 }  // namespace dashpot::compiler

@@ -352,6 +352,22 @@ class DeviceAsCode(CommandTest):
 
 
 class StandardOutput(CommandTest):
+    def test_a_dash(self):
+        """Fails if '-' is a file or a folder of that name where it can be standard output, or without a word."""
+        self.write("motion.csv", "time,position\n0,0\n0.001,0\n")
+        for command in [["device", PANTOGRAPH, "--target", "cpp"], ["export", FIG_5, "--to", "generic"],
+                        ["simulate", FIG_5, "--input", "motion.csv"]]:
+            self.assertEqual(self.dashpot(*command, "-o", "-").stdout, self.dashpot(*command).stdout)
+        self.assertTrue(self.dashpot("report", FIG_5, "-o", "-").stdout.startswith("<!doctype html>"))
+        for command in [["compile", FIG_5, "-o"], ["fit", "motion.csv", "-o"], ["fit", "motion.csv", "--report"],
+                        ["run", FIG_5, "--device", PANTOGRAPH, "--for", "0.1", "--log"],
+                        ["compile", FIG_5, "--depfile"], ["compile", FIG_5, "--certificate"],
+                        ["compile", FIG_5, "--proof"]]:
+            done = self.refused(*command, "-", code="output-is-dash", status=COMMAND_LINE_WRONG)
+            self.assertIn("'./-'", done.stderr)
+        self.assertEqual(self.files(), ["motion.csv"])
+        self.dashpot("compile", FIG_5, "-o", "-", "--print", "law")
+
     def test_a_full_disk_is_reported(self):
         """Fails if results are lost without a word when standard output cannot take them."""
         self.write("motion.csv", "time,position\n0,0\n0.001,0\n")

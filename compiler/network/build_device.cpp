@@ -177,9 +177,17 @@ class DeviceBuilder {
       loop.delay_samples = 0;
     read_write_delay(reader, loop);
     reader.read_pair("band", dimensions::frequency, Bound::above_zero, loop.band_low, loop.band_high);
+    warn_of_band(reader, loop);
     reader.read("reference_frequency", dimensions::frequency, Bound::zero_or_more, loop.reference_frequency);
     reader.read_count("missed_deadlines_allowed", 0, loop.missed_deadlines_allowed);
     reader.is_within("missed_deadlines_allowed", loop.missed_deadlines_allowed, 0, most_missed_deadlines, "deadlines");
+  }
+
+  void warn_of_band(const SectionReader& reader, const loop_description& loop) {
+    const double half_rate = 0.5 / loop.sample_period;
+    if (!reader.has("band") || loop.band_high <= half_rate) return;
+    diagnostics_.report<DiagnosticCode::band_above_half_rate>(reader.place_of("band"), loop.band_high, half_rate);
+    diagnostics_.note<DiagnosticCode::band_remedy>({}, half_rate);
   }
 
   // One time, or the earliest and the latest.

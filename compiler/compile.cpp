@@ -127,15 +127,22 @@ void tell_what_is_felt(Compilation& c, const Network& present, const Choices& ch
                         to_double(c.form.linear.feedthrough_damping), what_is_beside_slips(c.form)});
 }
 
-// The encoder's range at the tool, against where the surface lies.
-void warn_of_surface(const Contact& contact, const Compilation& c, Diagnostics& diagnostics) {
+// The encoder's range at the tool, against where the surface lies, or the rest where there is none.
+void warn_of_reach(const Compilation& c, Diagnostics& diagnostics) {
   const encoder_description& encoder = c.device->description.encoder;
   if (encoder.range_low == encoder.range_high) return;  // unlimited
   const double scale = c.port.at_tool().position_scale(), low = scale * encoder.range_low,
                high = scale * encoder.range_high;
+  const std::string unit = port_units(c.network.port_motion).position;
+  if (!c.network.contact) {
+    if (low <= 0 && 0 <= high) return;
+    diagnostics.report<DiagnosticCode::rest_out_of_reach>(c.network.name_span, c.network.name, c.device->name, low,
+                                                          high, unit);
+    return diagnostics.note<DiagnosticCode::rest_reach_remedy>({});
+  }
+  const Contact& contact = *c.network.contact;
   // The tissue lies beyond the surface, to the positive side.
   if (contact.at < high) return;
-  const std::string unit = port_units(c.network.port_motion).position;
   const bool has_arm = c.device->description.motion != c.network.port_motion;
   diagnostics.report<DiagnosticCode::surface_out_of_reach>(contact.span, contact.at, unit, c.device->name, low, high,
                                                            unit);
@@ -236,7 +243,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   std::optional<PortDevice> port = device ? PortDevice::of(*device, result.network, diagnostics) : PortDevice::ideal();
   if (!port) return std::nullopt;
   result.port = std::move(*port);
-  if (device && result.network.contact) warn_of_surface(*result.network.contact, result, diagnostics);
+  if (device) warn_of_reach(result, diagnostics);
   times.enter("decomposition");
   const SlipDecomposer behind_slips(present, result.form, result.port.reference_frequency());
   std::optional<Decomposition> decomposition =

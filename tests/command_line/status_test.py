@@ -88,6 +88,15 @@ class Check(CommandTest):
             self.assertEqual("[surface-out-of-reach]" in said, warned, said)
         self.assertNotIn("[surface-out-of-reach]", self.dashpot("check", "tissue.json").stderr)
 
+    def test_a_rest_beyond_reach(self):
+        """Fails if a network whose rest the tool never comes to is compiled without a warning, or one behind a surface
+        within reach is warned of."""
+        self.write("slide.json", LINEAR_DEVICE.replace('"-0.1 m"', '"10 mm"'))
+        for contact, warned in [("", True), ('"contact": { "at": "50 mm" },', False)]:
+            self.write("tissue.json", network('{ "spring": "5 N/m" }', more=contact))
+            said = self.dashpot("check", "tissue.json", "--device", "slide.json").stderr
+            self.assertEqual("[rest-out-of-reach]" in said, warned, said)
+
 
 class WrongCommandLine(CommandTest):
     def wrong(self, *arguments, mentions=""):

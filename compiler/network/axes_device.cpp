@@ -136,6 +136,46 @@ class AxesDeviceBuilder {
       if (!description) return;  // what is wrong with parts that both share is reported once
       device_.joints.push_back(*description);
     }
+    if (sides_read_ == 2 && !has_errors()) warn_of_ranges();
+  }
+
+  // By points of the workspace, its corners among them, so that what is told of is certain.
+  void warn_of_ranges() {
+    constexpr int parts = 16;
+    const axes::Box& box = device_.workspace;
+    for (std::size_t j = 0; j < device_.joints.size(); ++j)
+      for (int point = 0; point < (parts + 1) * (parts + 1); ++point) {
+        const auto along = [](const axes::Interval& side, int part) {
+          return side.low + (side.high - side.low) * part / parts;
+        };
+        const Pair<double> tip{along(box[0], point % (parts + 1)), along(box[1], point / (parts + 1))};
+        if (warns_of_range(j, tip)) break;
+      }
+  }
+
+  bool warns_of_range(std::size_t joint, const Pair<double>& tip) {
+    const encoder_description& encoder = device_.joints[joint].encoder;
+    const auto joints = axes::joints_at(device_.arm, tip);
+    if (encoder.range_low == encoder.range_high || !joints) return false;
+    constexpr double turn = 6.283185307179586476925286766559;  // [rad]
+    double at = (*joints)[joint];
+    const double middle = 0.5 * (encoder.range_low + encoder.range_high);
+    if (rotates()) at += turn * std::round((middle - at) / turn);
+    const double rounding = 1e-9 * (encoder.range_high - encoder.range_low);
+    if (at >= encoder.range_low - rounding && at <= encoder.range_high + rounding) return false;
+    const std::string unit = port_units(motion_of(device_.arm.kind)).position;
+    diagnostics_.report<DiagnosticCode::workspace_beyond_encoder>(range_span(joint), 1e3 * tip[0], 1e3 * tip[1],
+                                                                  joint + 1, at, unit, encoder.range_low,
+                                                                  encoder.range_high, unit);
+    diagnostics_.note<DiagnosticCode::workspace_beyond_encoder_remedy>({});
+    return true;
+  }
+
+  Span range_span(std::size_t joint) const {
+    for (const SectionDecl& section : decl_.joints[joint].sections)
+      for (const EntryDecl& entry : section.entries)
+        if (section.name.text == "encoder" && entry.key.text == "range") return entry.span;
+    return decl_.opening;
   }
 
   void read_brakes() {

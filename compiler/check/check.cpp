@@ -80,8 +80,8 @@ struct Header : Program {
         R"(\{damping, 0\}; \} )|void reset\(scalar position = 0\) \{ (?:static_cast<void>\(position\); |)"
         R"(last_position_ = all_finite\(position, position, position\) \? position : 0; )(?:\w+_ = (?:0|false); |)"
         R"(clear\(\w+_\); )*\} |unsigned set\(const parameters&\) \{ return 0; \} |scalar \w+\(\) const \{ (?:[^{}]|)"
-        R"(\{[^{}]*\})*\} |template <int size> static void clear\(volatile scalar \(&states\)\[size\]\) \{ for \(int )"
-        R"(i = 0; i < size; \+\+i\) states\[i\] = 0; \} |for \(int j = 0, first = (\w+_)turn_; j < (\d+); j \+= )"
+        R"(\{[^{}]*\})*\} |template <unsigned size> static void clear\(volatile scalar \(&states\)\[size\]\) \{ for )"
+        R"(\(unsigned i = 0; i < size; \+\+i\) states\[i\] = 0; \} |for \(int j = 0, first = (\w+_)turn_; j < (\d+); j \+= )"
         R"(vector::width\) vector::put\(\1, first \+ j, \(vector::at\(\1, first \+ j\)\)\); \1turn_ \+= \2; \1turn_ = )"
         R"(\1turn_ < \d+ \? \1turn_ : 0; )");
     if (take(frame) || (next["sampled_"] == Form{{"", 1}} && take("if (!sampled_) return; "))) return;

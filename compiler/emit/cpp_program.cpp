@@ -253,8 +253,8 @@ class CppPrinter {
     if (uses_clear_)
       for (const char* line :
            {"// Through volatile: compilers turn a plain loop into a call of memset, which may not be there.",
-            "template <int size>", "static void clear(volatile scalar (&states)[size]) noexcept {",
-            "  for (int i = 0; i < size; ++i) states[i] = 0;", "}", ""})
+            "template <unsigned size>", "static void clear(volatile scalar (&states)[size]) noexcept {",
+            "  for (unsigned i = 0; i < size; ++i) states[i] = 0;", "}", ""})
         lines.push_back(line);
     return lines;
   }

@@ -145,9 +145,9 @@ class maxwell_slip_ten {
 
  private:
   // Through volatile: compilers turn a plain loop into a call of memset, which may not be there.
-  template <int size>
+  template <unsigned size>
   static void clear(volatile scalar (&states)[size]) noexcept {
-    for (int i = 0; i < size; ++i) states[i] = 0;
+    for (unsigned i = 0; i < size; ++i) states[i] = 0;
   }
 
   static constexpr scalar damping = 0.0;  // b, the brake's part

@@ -301,7 +301,8 @@ void expect_same_bits(compiler::ScalarType scalar) {
   for (const Emitted& one : all)
     expected += scalar == compiler::ScalarType::float64 ? simulated<double>(one) : simulated<float>(one);
   const char* const strict =
-      "-pedantic -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror -O1 -ffp-contract=off";
+      "-pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Werror -O1 "
+      "-ffp-contract=off";
   const auto finished = [&](const char* compiler, const char* and_then) {
     const Finished done =
         run_command(fmt::format("cd '{}' && {} {} laws.c {}", folder.path().string(), compiler, strict, and_then));

@@ -182,7 +182,8 @@ void expect_agreement(const TemporaryFolder& folder, const std::vector<std::stri
   for (const Machine& machine : machines) {
     const std::string program = (folder.path() / "points").string();
     run_or_throw(fmt::format(
-        "'{0}' -std=c++17 {1} -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow "
+        "'{0}' -std=c++17 {1} -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion "
+        "-Wdouble-promotion -Wshadow "
         "-Werror "
         "-I'{2}' -I'{3}' -I'{4}' '{5}.cpp' -o '{5}'",
         machine.compiler, machine.flags, DASHPOT_RUNTIME_INCLUDE, DASHPOT_DRIVER, folder.path().string(), program));

@@ -19,8 +19,8 @@ sys.path.insert(0, str(SOURCE / "tests/support"))
 from cortex_m import PROCESSORS, compiling, linking, printed  # noqa: E402
 
 BOARD = SOURCE / "runtime/devices/arm_board_mps2.json"
-STRICT = ["-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Wdouble-promotion", "-Werror",
-          "-ffp-contract=off"]
+STRICT = ["-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wsign-conversion", "-Wshadow",
+          "-Wdouble-promotion", "-Werror", "-ffp-contract=off"]
 
 # Reads rows of q1, q2, v1, v2 and writes what the law answers, in turn by step() and by its two phases, with its
 # energy; every 70th row is where it is reset to.

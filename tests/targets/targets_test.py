@@ -45,7 +45,7 @@ CHANGES = {"friction_tunable": {130: {"yield": 0.4, "presliding": 4321.5, "drag"
            "second_order_maxwell_tunable": {130: {"K1": 77.7, "B2": 1.3}, 260: {"K1": 0.9, "B2": 17.1}}}
 IS_LONG = os.environ.get("DASHPOT_LONG") == "1"
 HOST_FLAGS = ["-O2" if IS_LONG else "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion",
-              "-Wshadow", "-Wdouble-promotion", "-Werror"]
+              "-Wsign-conversion", "-Wshadow", "-Wdouble-promotion", "-Werror"]
 
 
 def motion():

@@ -383,7 +383,8 @@ class second_order_maxwell_tunable_batch {
 // The same with storage of its own, for a number of points that is known beforehand.
 template <int size>
 struct second_order_maxwell_tunable_batch_storage {
-  alignas(64) double values[second_order_maxwell_tunable_batch::storage_size(size) > 0 ? second_order_maxwell_tunable_batch::storage_size(size) : 1];
+  static constexpr long long needed = second_order_maxwell_tunable_batch::storage_size(size);
+  alignas(64) double values[needed > 0 ? static_cast<decltype(sizeof(0))>(needed) : 1];
 };
 
 template <int size>

@@ -140,9 +140,9 @@ class twenty_branches {
 
  private:
   // Through volatile: compilers turn a plain loop into a call of memset, which may not be there.
-  template <int size>
+  template <unsigned size>
   static void clear(volatile scalar (&states)[size]) noexcept {
-    for (int i = 0; i < size; ++i) states[i] = 0;
+    for (unsigned i = 0; i < size; ++i) states[i] = 0;
   }
 
   static constexpr scalar damping = 6.629;  // b, the brake's part

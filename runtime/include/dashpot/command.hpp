@@ -23,8 +23,8 @@ struct command {
 // description states, and a torque for each motor, opposing +q. With `axes` positions q [rad or m] of the joints.
 template <class Scalar, int axes, int brakes>
 struct commands {
-  Scalar damping[brakes];  // [N·m·s/rad] or [N·s/m]; never negative
-  Scalar torque[axes];     // [N·m] or [N]
+  Scalar damping[unsigned{brakes}];  // [N·m·s/rad] or [N·s/m]; never negative
+  Scalar torque[unsigned{axes}];     // [N·m] or [N]
 };
 
 // True when every argument is finite: x − x is 0 for a finite x and NaN for the others, and NaN alone differs from

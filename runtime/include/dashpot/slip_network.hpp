@@ -75,9 +75,9 @@ struct slip_network_room {
 
 template <class Scalar, int Nodes>
 struct slip_network_scratch {
-  int group[Nodes + 2];
-  Scalar between[Nodes * Nodes];
-  Scalar numbers[8 * Nodes];
+  int group[unsigned{Nodes + 2}];
+  Scalar between[unsigned{Nodes * Nodes}];
+  Scalar numbers[unsigned{8 * Nodes}];
 
   constexpr slip_network_room<Scalar> room() noexcept { return {group, between, numbers}; }
 };

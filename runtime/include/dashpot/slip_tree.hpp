@@ -93,9 +93,9 @@ struct slip_part_state {
 // Room for the steps of one tree; the contents do not matter between steps.
 template <class Scalar, int Nodes, int Slips, int Corners>
 struct slip_tree_scratch {
-  slip_part_state<Scalar> parts[Nodes];
-  slip_corner<Scalar> corners[Corners];  // slip_tree_corners()
-  slip_corner<Scalar> merged[slip_curve_room(Slips)];
+  slip_part_state<Scalar> parts[unsigned{Nodes}];
+  slip_corner<Scalar> corners[unsigned{Corners}];  // slip_tree_corners()
+  slip_corner<Scalar> merged[unsigned{slip_curve_room(Slips)}];
 };
 
 template <class Scalar>
@@ -106,10 +106,12 @@ class slip_tree {
                       slip_corner<Scalar>* corners, slip_corner<Scalar>* merged) noexcept
       : nodes_(nodes), count_(count), parts_(parts), corners_(corners), merged_(merged) {}
 
-  template <int Nodes, int Slips, int Corners>
-  constexpr slip_tree(const slip_node<Scalar> (&nodes)[Nodes],
+  template <unsigned size, int Nodes, int Slips, int Corners>
+  constexpr slip_tree(const slip_node<Scalar> (&nodes)[size],
                       slip_tree_scratch<Scalar, Nodes, Slips, Corners>& scratch) noexcept
-      : slip_tree(nodes, Nodes, scratch.parts, scratch.corners, scratch.merged) {}
+      : slip_tree(nodes, Nodes, scratch.parts, scratch.corners, scratch.merged) {
+    static_assert(size == Nodes, "a part for every node");
+  }
 
   // In: the root's elongation in this sample [m], π of every block [N]. Out: the force that opposes it [N], δ of every
   // block [m], and for every slip 0 where it holds, ±1 where it gives way to that side.

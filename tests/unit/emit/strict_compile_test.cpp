@@ -11,7 +11,7 @@ namespace {
 
 const char* const strict =
     "-std=c++17 -ffreestanding -fno-exceptions -fno-rtti -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion "
-    "-Wdouble-promotion -Wfloat-conversion -Wshadow -Wvla -Walloca -Werror";
+    "-Wsign-conversion -Wold-style-cast -Wdouble-promotion -Wfloat-conversion -Wshadow -Wvla -Walloca -Werror";
 
 struct Compiler {
   const char* name;

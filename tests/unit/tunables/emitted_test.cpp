@@ -96,7 +96,7 @@ void run_or_fail(const std::string& line) {
 
 const char* const strict =
     "-std=c++17 -ffreestanding -fno-exceptions -fno-rtti -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion "
-    "-Wdouble-promotion -Wfloat-conversion -Wshadow -Wvla -Walloca -Werror";
+    "-Wsign-conversion -Wold-style-cast -Wdouble-promotion -Wfloat-conversion -Wshadow -Wvla -Walloca -Werror";
 
 // If this failed, what `simulate` shows would not be what runs in the loop.
 TEST(TunableEmission, HasTheBitsOfEvaluate) {

@@ -189,6 +189,25 @@ class Files(CommandTest):
                                    capture_output=True, check=False)
             self.assertEqual(built.stderr, "", word)
 
+    def test_names_with_an_underscore_behind(self):
+        """Fails if emitted code calls something by a word or a macro since an underscore is behind it in the file."""
+        for word in ["long_", "NULL_", "M_PI_"]:
+            self.write("under.json", json.dumps({
+                "dashpot": 1, "name": "under",
+                "parameters": {word: {"value": "20 N/m", "tunable": True, "min": "0 N/m", "max": "100 N/m"}},
+                "network": {"parallel": [
+                    {"spring": word}, {"spring": "100 N/m", "name": "class_"},
+                    {"series": [{"spring": "5 N/m", "name": "int_"}, {"damper": 1}]}]}}))
+            self.dashpot("compile", "under.json", "--target", "c99")
+            self.dashpot("compile", "under.json")
+            self.write("under.c", "#include <math.h>\n#include <stdio.h>\n#include <under.h>\n")
+            self.write("under.cpp", "#include <cmath>\n#include <cstdio>\n#include <under.hpp>\n")
+            for compiler in (["gcc", "-std=gnu99", "under.c"],
+                             ["g++", "-std=gnu++17", f"-I{SOURCE}/runtime/include", "under.cpp"]):
+                built = subprocess.run([*compiler, "-fsyntax-only", "-Wall", "-Werror", "-I."], cwd=self.folder,
+                                       text=True, capture_output=True, check=False)
+                self.assertEqual(built.stderr, "", word)
+
     def test_hal(self):
         """Fails if --target hal writes anything but one component, or one that takes the place of another or has no
         room for its pins."""

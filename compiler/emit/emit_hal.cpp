@@ -40,11 +40,11 @@ constexpr std::string_view own_components =
     " watchdog wcomp weighted_sum xhc_hb04_util xor2 xyzab_tdr_kins ";
 
 const std::set<std::string> own_pins = {"position", "velocity",   "enable",       "damping",      "force", "fault",
-                                        "output",   "fault_code", "out_of_range", "safe_damping", "update"};
+                                        "output",   "fault-code", "out-of-range", "safe-damping", "update"};
 
-// Variables that halcompile keeps for itself.
-const std::set<std::string> variables_of_halcompile = {"comp_id", "extra_cleanup",  "extra_setup",
-                                                       "fperiod", "rtapi_app_exit", "rtapi_app_main"};
+// Variables that halcompile keeps for itself, and the word of C that none of the members it declares is called.
+const std::set<std::string> names_of_halcompile = {"comp_id",        "extra_cleanup",  "extra_setup", "fperiod",
+                                                   "rtapi_app_exit", "rtapi_app_main", "restrict"};
 
 // As halcompile turns a name into that of a pin.
 std::string hal_name(std::string name) {
@@ -81,11 +81,11 @@ bool has_names_of_hal(const Compilation& c, Diagnostics& diagnostics) {
   check_length(c.network.name_span, name, hal_name(name) + std::string(longest_own_pin));
   for (const Parameter& p : c.network.parameters) {
     if (!p.tunable) continue;
-    if (own_pins.count(p.name) != 0 || !pins.insert(hal_name(p.name)).second) {
+    if (own_pins.count(hal_name(p.name)) != 0 || !pins.insert(hal_name(p.name)).second) {
       diagnostics.report<DiagnosticCode::parameter_name_kept_by>(p.span, p.name, "another pin of the component");
       good = false;
     }
-    if (variables_of_halcompile.count(p.name) != 0) {
+    if (names_of_halcompile.count(p.name) != 0) {
       diagnostics.report<DiagnosticCode::parameter_name_kept_by>(p.span, p.name, "halcompile");
       good = false;
     }

@@ -229,7 +229,7 @@ class Files(CommandTest):
 
     def test_parameters_with_names_of_a_target(self):
         """Fails if a tunable parameter passes for a pin or a variable that is there already."""
-        for name in ["fault", "fperiod", "enable"]:
+        for name in ["fault", "fperiod", "fault_", "safe_damping_", "restrict", "enable"]:
             tunable = (f'"parameters": {{ "{name}": {{ "value": "100 N/m", "tunable": true, '
                        '"min": "50 N/m", "max": "200 N/m" } },')
             self.write("tunable.json", network(f'{{ "spring": "{name}" }}', "soft", tunable))

@@ -5,6 +5,7 @@ import subprocess
 import sys
 import tracemalloc
 import unittest
+import warnings
 
 import numpy
 
@@ -156,6 +157,19 @@ class Package(PackageTest):
             for name, parameter in module.parameters.items():  # both ends are in
                 module.Law().set(**{name: parameter.min})
                 module.Law().set(**{name: parameter.max})
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                with self.assertRaisesRegex(ValueError, f"{name} is from"):
+                    module.Law().set(**{name: 1e300})
+
+    def test_a_parameter_called_self(self):
+        """Fails if a parameter that is called like Python's first argument cannot be set."""
+        network = self.folder / "own.json"
+        network.write_text('{ "dashpot": 1, "name": "own", "network": { "spring": "self" }, "parameters": { "self": '
+                           '{ "value": "2 N/m", "tunable": true, "min": "1 N/m", "max": "3 N/m" } } }')
+        law = self.emitted(network).Law()
+        law.set(self=2.5)
+        self.assertEqual(law.parameters, {"self": 2.5})
 
     def test_wrong_arrays(self):
         """Fails if rows that do not fit are read or written beyond their end, or NaN passes for a number."""

@@ -172,6 +172,9 @@ class Wrapper(WasmTest):
             throws(() => one.set({ [name]: wrong }), RangeError);
           throws(() => one.set({ softness: 1 }), /has no parameter 'softness'; it has/);
           equal(one.parameters[name], range.max);
+          for (const wrong of [range.max * 1.01, NaN])
+            throws(() => one.simulate([2e-3, 0], null, { values: { [name]: [range.min, wrong] } }), /is expected/);
+          equal(one.parameters[name], range.max);
           throws(() => one.simulate([0, 1], [0]), /velocity has 1 rows, and position 2/);
           throws(() => one.simulate([0, 1], null, { values: { [name]: [1] } }), RangeError);
           notEqual(one.simulate([0, 1e-3, 2e-3]).force[2], other.simulate([0, 1e-3, 2e-3]).force[2]);

@@ -555,9 +555,8 @@ bool settle_dashes(const std::string& command, Options& options, Diagnostics& di
     if (!is_folder && !is_telling) {
       options.output.reset();
     } else {
-      diagnostics.report<DiagnosticCode::output_is_dash>(
-          {}, command == "run" ? "--log" : "--output",
-          is_folder ? "a folder" : "a file, since standard output says how it went");
+      diagnostics.report<DiagnosticCode::output_is_dash>({}, command == "run" ? "--log" : "--output",
+                                                         is_folder ? "a folder" : "a file");
       diagnostics.note<DiagnosticCode::dash_remedy>({}, is_folder ? "--print writes a stage to standard output; " : "");
     }
   }

@@ -19,8 +19,8 @@ CASES = ROOT / "tests/diagnostics/cases"
 
 BEYOND_THE_SCHEMAS = {
     # devices: values and units
-    "devices/band_reversed", "devices/coil_lag_below_the_band", "devices/damping_at_the_tool",
-    "devices/jitter_of_a_period",
+    "devices/band_above_half_the_rate", "devices/band_reversed", "devices/coil_lag_below_the_band",
+    "devices/damping_at_the_tool", "devices/jitter_of_a_period", "devices/zero_told_once",
     "devices/limit_as_a_current", "devices/brake_safe_damping_too_large", "devices/brake_unit_of_the_other_motion",
     "devices/estimator_cutoff_above_nyquist", "devices/estimator_without_encoder_step",
     "devices/rate_is_a_period", "devices/units_run_together", "devices/write_after_a_period",
@@ -30,7 +30,7 @@ BEYOND_THE_SCHEMAS = {
     "axes_tunable",
     "devices/axes_arm_out_of_reach", "devices/axes_arm_singular", "devices/axes_brakes_parallel",
     "devices/axes_inertia_below_zero", "devices/axes_inertia_not_symmetric", "devices/axes_jitter_of_a_period",
-    "devices/axes_link_masses_of_cartesian", "devices/axes_motion_of_serial",
+    "devices/axes_link_masses_of_cartesian", "devices/axes_motion_of_serial", "devices/axes_workspace_beyond_encoder",
     # several ports: what is true of all of them
     "ports_of_one_name", "ports_with_a_tunable", "ports_with_bad_parameters",
     # names

@@ -19,16 +19,10 @@ bool is_called(const Named& named, const std::string& name) {
 // Members that some laws have, whatever their elements are called.
 constexpr std::string_view members_of_some[] = {"threshold", "total", "sampled_", "kept_share", "clear"};
 
-// Tables and states of a law with tunables.
-constexpr std::string_view tunable_members[] = {"tunables",  "springs", "parts",  "edges", "blocks", "cuts",   "yields",
-                                                "couplings", "nodes",   "graphs", "links", "ties",   "tables", "law_"};
-
 // States end in an underscore in the emitted class.
 bool is_member(const UpdateLaw& law, const std::string& name) {
-  const auto holds = [&](const auto& list) {
-    return std::find(std::begin(list), std::end(list), name) != std::end(list);
-  };
-  if (holds(members_of_some) || (law.tunable && holds(tunable_members))) return true;
+  if (std::find(std::begin(members_of_some), std::end(members_of_some), name) != std::end(members_of_some)) return true;
+  if (law.tunable && name == "tunables") return true;
   if (law.joints && (name == "axes" || name == "brakes" || name == "commands")) return true;
   const std::string state = name.back() == '_' ? name.substr(0, name.size() - 1) : "";
   const auto names_state = [&](const Variable& v) { return v.is_kept() && is_called(v, state); };

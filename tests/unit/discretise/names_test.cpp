@@ -112,6 +112,17 @@ TEST(Names, TheClassAndItsMembers) {
   EXPECT_NO_THROW(branches("K1_B1", {{"K1", "B1"}}));
 }
 
+// Fails if a law with tunables cannot be called by a common word, or by the one that its ranges are called.
+TEST(Names, TheClassOfALawWithTunables) {
+  const auto called = [](const char* name) {
+    return Compiled(fmt::format(R"({{ "dashpot": 1, "name": "{}", "network": {{ "spring": "K" }}, "parameters": {{ )"
+                                R"("K": {{ "value": 20, "tunable": true, "min": 10, "max": 30 }} }} }})",
+                                name));
+  };
+  for (const char* name : {"springs", "nodes", "parts", "links", "tables"}) EXPECT_NO_THROW(called(name)) << name;
+  EXPECT_THROW(called("tunables"), std::invalid_argument);
+}
+
 // Of a class's members; locals of two programs may be called alike.
 std::string first_member_twice(const UpdateLaw& law) {
   std::set<std::string> taken = of_the_template;

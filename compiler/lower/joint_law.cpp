@@ -12,8 +12,8 @@
 #include "law/empty_law.hpp"
 #include "law/walk.hpp"
 #include "lower/append_law.hpp"
-#include "network/match.hpp"
 #include "lower/term_writer.hpp"
+#include "network/match.hpp"
 
 namespace dashpot::compiler {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "network/port_units.hpp"
@@ -157,7 +158,7 @@ class AxesDeviceBuilder {
     const encoder_description& encoder = device_.joints[joint].encoder;
     const auto joints = axes::joints_at(device_.arm, tip);
     if (encoder.range_low == encoder.range_high || !joints) return false;
-    constexpr double turn = 6.283185307179586476925286766559;  // [rad]
+    constexpr double turn = 2 * std::numbers::pi;
     double at = (*joints)[joint];
     const double middle = 0.5 * (encoder.range_low + encoder.range_high);
     if (rotates()) at += turn * std::round((middle - at) / turn);

@@ -163,10 +163,10 @@ class DeviceBuilder {
       diagnostics_.report<DiagnosticCode::missing_key>(decl_.opening, "the device file", "loop");
     reader.require("rate");
     double rate = 1 / loop.sample_period;
-    reader.read("rate", dimensions::frequency, Bound::above_zero, rate);
-    if (reader.is_within("rate", rate, lowest_rate, highest_rate, "Hz")) loop.sample_period = 1 / rate;
-    reader.read("jitter", dimensions::time, Bound::zero_or_more, loop.jitter);
-    const bool is_time = reader.is_within("jitter", loop.jitter, 0, longest_time, "s");
+    if (reader.read_within("rate", dimensions::frequency, Bound::above_zero, lowest_rate, highest_rate, "Hz", rate))
+      loop.sample_period = 1 / rate;
+    const bool is_time =
+        reader.read_within("jitter", dimensions::time, Bound::zero_or_more, 0, longest_time, "s", loop.jitter);
     if (is_time && loop.jitter >= loop.sample_period) {
       diagnostics_.report<DiagnosticCode::jitter_of_a_period>(reader.place_of("jitter"), reader.text_of("jitter"),
                                                               1e3 * loop.sample_period);
@@ -217,8 +217,8 @@ class DeviceBuilder {
     if (const auto word = reader.read_word("quantiser", {"floor", "round"}))
       encoder.rounding = *word == 0 ? quantiser::floor : quantiser::round;
     reader.read_pair("range", due_.position, Bound::any, encoder.range_low, encoder.range_high);
-    reader.read("max_speed", due_.velocity, Bound::above_zero, encoder.max_speed);
-    reader.is_within("max_speed", encoder.max_speed, 0, highest_speed, speed_unit());
+    reader.read_within("max_speed", due_.velocity, Bound::above_zero, 0, highest_speed, speed_unit(),
+                       encoder.max_speed);
   }
 
   void read_encoder_step(const SectionReader& reader, encoder_description& encoder) {
@@ -304,8 +304,8 @@ class DeviceBuilder {
     reader.read("torque_constant", due_.force_constant, Bound::above_zero, motor.torque_constant);
     reader.read("max_torque", due_.force, Bound::above_zero, motor.max_torque);
     if (const auto current = reader.stated("max_torque", dimensions::current)) note_torque(reader, current);
-    reader.read("amplifier_lag", dimensions::time, Bound::zero_or_more, motor.amplifier_lag);
-    reader.is_within("amplifier_lag", motor.amplifier_lag, 0, longest_time, "s");
+    reader.read_within("amplifier_lag", dimensions::time, Bound::zero_or_more, 0, longest_time, "s",
+                       motor.amplifier_lag);
     reader.read("slew", due_.force_rate, Bound::above_zero, motor.slew);
     reader.read("saturation_allowed", dimensions::time, Bound::above_zero, motor.saturation_allowed);
     reader.read("noise", due_.force, Bound::zero_or_more, motor.noise);
@@ -355,11 +355,10 @@ class DeviceBuilder {
                 brake.damping_per_current_squared);
     read_damping(reader, "residual_damping", Bound::zero_or_more, brake.residual_damping);
     reader.read("tolerance", dimensions::number, Bound::zero_or_more, brake.tolerance);
-    reader.read("coil_lag", dimensions::time, Bound::zero_or_more, brake.coil_lag);
-    reader.is_within("coil_lag", brake.coil_lag, 0, longest_time, "s");
+    reader.read_within("coil_lag", dimensions::time, Bound::zero_or_more, 0, longest_time, "s", brake.coil_lag);
     reader.read("slew", dimensions::current_rate, Bound::above_zero, brake.slew);
-    if (reader.read("critical_speed", due_.velocity, Bound::above_zero, brake.critical_speed))
-      reader.is_within("critical_speed", brake.critical_speed, lowest_speed, highest_speed, speed_unit());
+    reader.read_within("critical_speed", due_.velocity, Bound::above_zero, lowest_speed, highest_speed, speed_unit(),
+                       brake.critical_speed);
     read_damping(reader, "safe_damping", Bound::zero_or_more, brake.safe_damping);
     check_brake(reader, brake);
   }
@@ -409,11 +408,10 @@ class DeviceBuilder {
     reader.refuse_other_keys({"frequency", "damping_ratio", "mass"});
     reader.require("frequency");
     reader.require("mass");
-    if (reader.read("frequency", dimensions::frequency, Bound::above_zero, mechanics.mode.frequency))
-      reader.is_within("frequency", mechanics.mode.frequency, slowest_mode, 1 / device_.description.loop.sample_period,
-                       "Hz");
-    reader.read("damping_ratio", dimensions::number, Bound::zero_or_more, mechanics.mode.damping_ratio);
-    reader.is_within("damping_ratio", mechanics.mode.damping_ratio, 0, 1, "of critical damping");
+    reader.read_within("frequency", dimensions::frequency, Bound::above_zero, slowest_mode,
+                       1 / device_.description.loop.sample_period, "Hz", mechanics.mode.frequency);
+    reader.read_within("damping_ratio", dimensions::number, Bound::zero_or_more, 0, 1, "of critical damping",
+                       mechanics.mode.damping_ratio);
     const bool has_mass = reader.read("mass", due_.inertia, Bound::above_zero, mechanics.mode.mass);
     if (!has_mass || (around.has("inertia") && mechanics.inertia == 0)) return;
     const double least = mechanics.inertia / smallest_part;

@@ -91,6 +91,11 @@ bool SectionReader::is_within(std::string_view key, double value, double low, do
   return false;
 }
 
+bool SectionReader::read_within(std::string_view key, const Dimension& due, Bound bound, double low, double high,
+                                std::string_view unit, double& target) const {
+  return read(key, due, bound, target) && is_within(key, target, low, high, unit);
+}
+
 std::optional<std::size_t> SectionReader::read_word(std::string_view key, const std::vector<std::string>& words) const {
   const ValueDecl* decl = find_single(key);
   if (decl == nullptr) return std::nullopt;

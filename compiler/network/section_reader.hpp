@@ -44,6 +44,9 @@ class SectionReader {
                  bool may_be_one = false) const;
   // False, with a diagnostic, for a value that was read and is not from `low` to `high`.
   bool is_within(std::string_view key, double value, double low, double high, std::string_view unit) const;
+  // A value that is to be from `low` to `high`; whether it is. Of one that is refused already nothing more is reported.
+  bool read_within(std::string_view key, const Dimension& due, Bound bound, double low, double high,
+                   std::string_view unit, double& target) const;
   void read_count(std::string_view key, unsigned least, unsigned& target) const;
 
   // The index of the word among `words`.

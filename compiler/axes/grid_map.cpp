@@ -87,27 +87,4 @@ Grid grid_map(const Pair<double>& start, const Pair<double>& spacing, const Rows
   return grid;
 }
 
-double change_at_half(const Grid& grid) {
-  if (std::min(grid.knots[0], grid.knots[1]) < slope_knots) return 0;
-  const auto at = [&](std::size_t i, std::size_t j) {
-    return depth(grid,
-                 Pair<double>{grid.start[0] + double(i) * grid.spacing[0], grid.start[1] + double(j) * grid.spacing[1]})
-        .value;
-  };
-  Rows half;
-  for (std::size_t j = 0; j < grid.knots[1]; j += 2) {
-    half.emplace_back();
-    for (std::size_t i = 0; i < grid.knots[0]; i += 2) half.back().push_back(at(i, j));
-  }
-  const Grid coarse = grid_map(grid.start, 2.0 * grid.spacing, half);
-  double worst = 0;
-  for (std::size_t j = 0; j < 2 * half.size() - 1; ++j) {
-    for (std::size_t i = 0; i < 2 * half.front().size() - 1; ++i) {
-      const Pair<double> x{grid.start[0] + double(i) * grid.spacing[0], grid.start[1] + double(j) * grid.spacing[1]};
-      worst = std::max(worst, std::abs(depth(coarse, x).value - at(i, j)));
-    }
-  }
-  return worst;
-}
-
 }  // namespace dashpot::compiler::axes

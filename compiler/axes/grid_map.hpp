@@ -41,10 +41,6 @@ struct Grid {
 // `values[row][column]` at x = start[0] + column·spacing[0], y = start[1] + row·spacing[1]; at least two each way.
 Grid grid_map(const Pair<double>& start, const Pair<double>& spacing, const std::vector<std::vector<double>>& values);
 
-// What leaving out every second knot changes at those [unit of the values]: about sixteen times what the grid errs by
-// where its values are those of a smooth map. 0 with fewer than five knots either way.
-double change_at_half(const Grid& grid);
-
 // Which cell a point lies in along one axis, 0 … knots, and the knot that its s or t is measured from.
 constexpr std::size_t first_knot(std::size_t place) { return place == 0 ? 0 : place - 1; }
 std::size_t place(const Grid& grid, std::size_t axis, double x);

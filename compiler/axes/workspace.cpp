@@ -92,14 +92,4 @@ std::vector<Place> places_in(const Arm& arm, const Box& workspace, int n) {
   return places;
 }
 
-std::vector<Place> places_over_joints(const Arm& arm, const Box& joints, int n) {
-  std::vector<Place> places;
-  const double part = joints[0].width() * joints[1].width() / (n * n);
-  for (int i = 0; i < n * n; ++i) {
-    const Pair<double> q{centre(joints[0], i % n, n), centre(joints[1], i / n, n)};
-    places.push_back({q, part * std::abs(determinant(arm, q))});
-  }
-  return places;
-}
-
 }  // namespace dashpot::compiler::axes

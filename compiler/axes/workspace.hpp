@@ -55,7 +55,5 @@ struct Place {
 
 // Centres of n × n equal parts of a workspace; parts that are not reached are left out.
 std::vector<Place> places_in(const Arm& arm, const Box& workspace, int n);
-// Centres of n × n equal parts of a box of joints, with |det J| times their size.
-std::vector<Place> places_over_joints(const Arm& arm, const Box& joints, int n);
 
 }  // namespace dashpot::compiler::axes

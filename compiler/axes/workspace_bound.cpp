@@ -98,6 +98,7 @@ Pair<double> reach_of_tip(const Arm& arm, const Pair<Sloped>& joints, const Pair
   return {along(0), along(1)};
 }
 
+// Nothing where the part has to be halved before this is known.
 std::optional<Region> region_over(const Arm& arm, const Box& tip, const Pair<double>& reach) {
   const Pair<Sloped> at = variables(tip);
   const std::optional<Pair<Sloped>> joints = enclosed_joints(arm, at);
@@ -107,11 +108,6 @@ std::optional<Region> region_over(const Arm& arm, const Box& tip, const Pair<dou
   const std::optional<Pair<Sloped>> reached = enclosed_joints(arm, there);
   if (!reached) return std::nullopt;
   return Region{*joints, tip_motion(arm, *reached, there)};
-}
-
-Region region_over_joints(const Arm& arm, const Box& box, const Pair<double>& reach) {
-  const Pair<Sloped> joints = variables(box), reached = moved(joints, reach);
-  return {joints, {pose(arm, reached), curvature(arm, reached)}};
 }
 
 // |H| = α H + β W, with the |λ| of H v = λ W v: of λ1 ≤ λ2 not of one sign α = (λ1 + λ2)/(λ2 − λ1) and β = −2 λ1
@@ -249,16 +245,14 @@ class Search {
  public:
   Search(const Arm& arm, const std::vector<PortLoad>& loads, const Box& workspace, const SampledLoop& loop,
          const Pair<double>& weight, const GivenDamping& given)
-      : arm_(arm), loop_(loop), weight_(weight), given_(given) {
+      : arm_(arm), workspace_(workspace), loop_(loop), weight_(weight), given_(given) {
     for (const PortLoad& load : loads) ports_.emplace_back(load, range_of(load.map, workspace));
   }
 
-  // `region_of` takes a part to its region, or to nothing where it has to be halved before that is known.
-  template <typename ToRegion>
-  NeededDamping run(const Box& whole, const ToRegion& region_of, double tolerance, int most) {
+  NeededDamping run(double tolerance, int most) {
     const auto is_enough = [&](double need) { return is_close(need, tolerance); };
     const double need = best_first(
-        whole, most, [&](const Box& box) { return measured(box, region_of); }, is_enough);
+        workspace_, most, [&](const Box& box) { return measured(box); }, is_enough);
     return {need, attained_, at_, is_enough(need)};
   }
 
@@ -266,13 +260,12 @@ class Search {
   bool is_close(double need, double tolerance) const { return need - attained_ <= tolerance * scale_; }
 
   // The need is also evaluated at the place of a part where it would be largest if the entries were linear.
-  template <typename ToRegion>
-  double measured(const Box& box, const ToRegion& region_of) {
-    const std::optional<Region> region = region_of(box);
+  double measured(const Box& box) {
+    const std::optional<Region> region = region_over(arm_, box, loop_.reach);
     if (!region) return infinity;
     const Largest part = need_over(*region, nullptr);
     if (!(part.x > attained_)) return attained_;
-    const std::optional<Region> there = region_of(constant<Interval>(place_in(box, part)));
+    const std::optional<Region> there = region_over(arm_, constant<Interval>(place_in(box, part)), loop_.reach);
     if (!there) return part.x;
     const double limit = need_over(*there, &scale_).x;
     if (limit > attained_) attained_ = limit, at_ = {there->from[0].middle.middle(), there->from[1].middle.middle()};
@@ -315,6 +308,7 @@ class Search {
   }
 
   const Arm& arm_;
+  const Box& workspace_;
   std::vector<PortNeed> ports_;
   const SampledLoop& loop_;
   const Pair<double>& weight_;
@@ -347,15 +341,7 @@ Interval range_of(const PortMap& map, const Box& workspace) {
 NeededDamping needed_damping(const Arm& arm, const Box& workspace, const std::vector<PortLoad>& loads,
                              const SampledLoop& loop, const Pair<double>& weight, const GivenDamping& given,
                              double tolerance, int boxes) {
-  const auto region_of = [&](const Box& tip) { return region_over(arm, tip, loop.reach); };
-  return Search(arm, loads, workspace, loop, weight, given).run(workspace, region_of, tolerance, boxes);
-}
-
-NeededDamping needed_over_joints(const Arm& arm, const Box& joints, const std::vector<PortLoad>& loads,
-                                 const Box& workspace, const SampledLoop& loop, const Pair<double>& weight,
-                                 const GivenDamping& given, double tolerance, int boxes) {
-  const auto region_of = [&](const Box& box) { return std::optional(region_over_joints(arm, box, loop.reach)); };
-  return Search(arm, loads, workspace, loop, weight, given).run(joints, region_of, tolerance, boxes);
+  return Search(arm, loads, workspace, loop, weight, given).run(tolerance, boxes);
 }
 
 }  // namespace dashpot::compiler::axes

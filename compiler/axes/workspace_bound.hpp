@@ -66,9 +66,4 @@ NeededDamping needed_damping(const Arm& arm, const Box& workspace, const std::ve
                              const SampledLoop& loop, const Pair<double>& weight, const GivenDamping& given,
                              double tolerance = bound_tolerance, int boxes = most_boxes);
 
-// The same over a box of joints.
-NeededDamping needed_over_joints(const Arm& arm, const Box& joints, const std::vector<PortLoad>& loads,
-                                 const Box& workspace, const SampledLoop& loop, const Pair<double>& weight,
-                                 const GivenDamping& given, double tolerance = bound_tolerance, int boxes = most_boxes);
-
 }  // namespace dashpot::compiler::axes

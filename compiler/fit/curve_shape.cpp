@@ -132,13 +132,6 @@ CurveShape::Place CurveShape::at(double displacement) const {
   return {0, std::sqrt(force_at(near) / near)};
 }
 
-StaticCurve CurveShape::with_stiffness(double stiffness) const {
-  StaticCurve curve = curve_;
-  curve.point.force *= stiffness;
-  for (CurvePoint& point : curve.points) point.force *= stiffness;
-  return curve;
-}
-
 ShapeRange range_of(CurveShape::Kind kind) {
   switch (kind) {
     case CurveShape::Kind::power: return {1, 20};

@@ -42,9 +42,6 @@ class CurveShape {
   const std::vector<double>& parameters() const { return parameters_; }
   void set_parameter(std::size_t index, double value);
 
-  // In: the stiffness of the network behind it [N/m].
-  StaticCurve with_stiffness(double stiffness) const;
-
   friend bool operator==(const CurveShape& a, const CurveShape& b) {
     return a.kind() == b.kind() && a.reach() == b.reach() && a.curve_.point.force == b.curve_.point.force &&
            a.parameters_ == b.parameters_;

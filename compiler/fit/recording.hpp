@@ -44,7 +44,4 @@ struct Recording {
 std::vector<double> steps_of(const std::vector<double>& time);
 double usual_step(const std::vector<double>& steps);  // their median but for the first
 
-// Whether position and force are those of a step or a spectrum, so that no history is integrated.
-inline bool is_response(const Recording& recording) { return recording.kind != RecordingKind::motion; }
-
 }  // namespace dashpot::compiler::fitting

@@ -164,14 +164,5 @@ TEST(Grid, ErrsByNoMoreThanIsStated) {
   EXPECT_NEAR(largest_error(hills(33)) / largest_error(hills(65)), 16, 3);
 }
 
-// The error that can be told without knowing what was sampled: sixteen times that of the grid, within a factor of two.
-TEST(Grid, TellsItsErrorFromEverySecondKnot) {
-  const Grid grid = hills(33);
-  const double told = change_at_half(grid) / 16, error = largest_error(grid);
-  EXPECT_GT(told, 0.5 * error);
-  EXPECT_LT(told, 2 * error);
-  EXPECT_EQ(change_at_half(hills(3)), 0);
-}
-
 }  // namespace
 }  // namespace dashpot::testing

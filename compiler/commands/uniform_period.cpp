@@ -42,12 +42,18 @@ std::optional<std::size_t> row_off_step(const std::vector<double>& times, double
 }
 
 // The first row that leaves the straight line through the ends by more than the rounding of both: times t + e, |e| ≤
-// unit/2.
+// unit/2. Where the period between the ends is a whole number of units, e is the same at both; what is between them is
+// off by no less than the one and no more than the other, so by the same too.
 std::optional<std::size_t> row_off_line(const std::vector<double>& times, double period, const TimeDigits& digits,
                                         double unit_at_ends) {
+  const double duration = times.back() - times.front(), units = std::round(duration / unit_at_ends);
+  const bool is_whole = std::abs(duration - units * unit_at_ends) <= rounding_at(times.back()) &&
+                        std::fmod(units, static_cast<double>(times.size() - 1)) == 0;
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double departure = std::abs(times[i] - (times.front() + static_cast<double>(i) * period));
-    if (departure > (unit_at_ends + digits.unit_at(times[i])) / 2 + rounding_at(times[i])) return i;
+    const double unit = digits.unit_at(times[i]);
+    const double rounding = is_whole && unit == unit_at_ends ? 0 : (unit_at_ends + unit) / 2;
+    if (departure > rounding + uniformity * period + rounding_at(times[i])) return i;
   }
   return std::nullopt;
 }

@@ -325,6 +325,17 @@ class Table(SimulateTest):
         self.assertTrue(done.stderr.startswith("motion.csv:5:1: error:"), done.stderr)
         self.refuses("time,position\n0,0\n0.001,0\n0.002,0\n0.003000003,0\n", "csv-not-uniform")
 
+    def test_a_whole_number_of_digits(self):
+        """Fails if one time that is off by a digit passes for rounded where the period is a whole number of digits, so
+        that rounding moves all times alike; or if it is refused where the period is none."""
+        for start in [0, 17]:
+            for digits in [5, 6, 7, 8]:
+                times = [n / 1000 + start + (n == 2) * 10**-digits for n in range(6)]
+                self.refuses(table([(f"{time:.{digits}f}", 0) for time in times]), "csv-drifts")
+        self.assertEqual(len(self.simulated("kelvin.json", table([(f"{n / 80:.3f}", 0) for n in range(9)]))), 9)
+        halves = table([(time, 0) for time in ["0.038", "0.050", "0.062", "0.075", "0.088"]])
+        self.assertEqual(len(self.simulated("kelvin.json", halves)), 5)
+
     def test_times_that_do_not_rise(self):
         """Fails if time that falls or stands still passes, is not reported as that, or more digits are asked for where
         none would help."""

@@ -34,15 +34,20 @@ std::vector<fs::path> networks_in(const std::string& room) {
   return files;
 }
 
+// Folders in networks/ that hold networks, each after the one that it is in.
+std::vector<std::string> rooms() {
+  std::set<std::string> rooms;
+  for (const auto& entry : fs::recursive_directory_iterator(source / "networks"))
+    if (entry.path().extension() == ".json" && entry.path().filename() != "network.schema.json")
+      rooms.insert(entry.path().parent_path().lexically_relative(source / "networks").generic_string());
+  return {rooms.begin(), rooms.end()};
+}
+
 // Every network with the defaults, and each form that the defaults do not show once.
 std::vector<Recording> recordings() {
-  const fs::path paper = source / "networks/paper", tissues = source / "networks/tissues";
+  const fs::path paper = source / "networks/paper";
   const std::string pantograph = "--device '" + (source / "runtime/devices/pantograph_2dof.json").string() + "'";
-  return {
-      {"paper", "", networks_in("paper")},
-      {"tissues", "", networks_in("tissues")},
-      {"tunable", "", networks_in("tunable")},
-      {"axes", pantograph, networks_in("axes")},
+  std::vector<Recording> all = {
       {"forms/backward_euler", "--scheme backward-euler", {paper / "second_order_maxwell.json"}},
       {"forms/nodal", "--scheme backward-euler --state-input nodal", {paper / "generalised_kelvin_two.json"}},
       {"forms/velocity", "--state-input velocity", {paper / "maxwell_damper_at_tool.json"}},
@@ -63,6 +68,8 @@ std::vector<Recording> recordings() {
        "--batch",
        {paper / "second_order_maxwell.json", source / "networks/tunable/second_order_maxwell_tunable.json"}},
   };
+  for (const std::string& room : rooms()) all.push_back({room, room == "axes" ? pantograph : "", networks_in(room)});
+  return all;
 }
 
 // Relative path in generated/ → text.

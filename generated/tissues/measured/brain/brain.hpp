@@ -1,0 +1,185 @@
+// Brain tissue under a 5 mm punch, for a shear modulus of 1 kPa at once
+//
+// source: Seven points of P. Amedieu's thesis of 2004, as reproduced by J. Betten in 2015; relative, so that 1 kPa
+//   is assumed. Fitted by dashpot fit to brain_relax_amedieu2004.csv; at a flat punch of radius 0.005 m, moduli
+//   read as the shear modulus of an incompressible material: stiffness = modulus times 0.04 m; values are relative
+//   to 1kPa
+// valid: frequency 0.000636 to 0.00637 Hz
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
+// brake: makes b = 849.02 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series,
+//   B1 turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 %
+//   of the energy into heat at low frequency, and the brake follows it
+// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
+// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
+//   'passivity'
+// passivity: certified for any motion, samples at 1000 Hz: needs 848.987 N·s/m, most at 1.26161 Hz, at least
+//   849.02 N·s/m is there
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
+// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 1.8e-15 of the
+//   sum of the force's terms
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+// cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
+// cost of update(): 11 additions, 4 multiplications, 4 guards against subnormal numbers; 8 numbers kept between
+//   samples
+// rounding: in compensated form the force of a mode is off by at most 6.7e-16 of its peak
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+//   mode is a spring behind a damper, whose force dies away
+//
+// Written by dashpot 0.1.0 from a network with digest
+// 00c01ecf1d6eb73f3dec21aae917d2f0308bee9838d4c59bd59d2356938f05ae. It belongs to whoever had it
+// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+namespace dashpot::generated {
+
+class brain {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = true;
+  };
+
+  struct parameters {};
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    relaxed_force_ = 0;
+    B2_K2_force_ = 0;
+    B1_K1_force_ = 0;
+    B2_K2_error_ = 0;
+    B1_K1_error_ = 0;
+    sampled_position_change_ = 0;
+    sampled_position_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
+    sampled_ = false;
+    if (!dashpot::all_finite(force)) return {damping, 0};
+    sampled_ = true;
+    sampled_position_change_ = position_change;
+    sampled_position_ = position;
+    return {damping, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    // y = (a c Δu − α F) + e
+    // B2, K2
+    const scalar B2_K2_increment = B2_K2_gain * sampled_position_change_ - B2_K2_loss * B2_K2_force_ + B2_K2_error_;
+    // B1, K1
+    const scalar B1_K1_increment = B1_K1_gain * sampled_position_change_ - B1_K1_loss * B1_K1_force_ + B1_K1_error_;
+    // t = F + y
+    const scalar B2_K2_next = B2_K2_force_ + B2_K2_increment;
+    const scalar B1_K1_next = B1_K1_force_ + B1_K1_increment;
+    // e = y − (t − F)
+    B2_K2_error_ = dashpot::flush_below(threshold, B2_K2_increment - (B2_K2_next - B2_K2_force_));
+    B1_K1_error_ = dashpot::flush_below(threshold, B1_K1_increment - (B1_K1_next - B1_K1_force_));
+    // F = t
+    B2_K2_force_ = dashpot::flush_below(threshold, B2_K2_next);  // B2, K2
+    B1_K1_force_ = dashpot::flush_below(threshold, B1_K1_next);  // B1, K1
+    // S = Σ a_i F_i
+    relaxed_force_ = B2_K2_force_ + B1_K1_force_;
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
+    // y = (a c Δu − α F) + e
+    // B2, K2
+    const scalar B2_K2_increment = B2_K2_gain * position_change - B2_K2_loss * B2_K2_force_ + B2_K2_error_;
+    // B1, K1
+    const scalar B1_K1_increment = B1_K1_gain * position_change - B1_K1_loss * B1_K1_force_ + B1_K1_error_;
+    // t = F + y
+    const scalar B2_K2_next = B2_K2_force_ + B2_K2_increment;
+    const scalar B1_K1_next = B1_K1_force_ + B1_K1_increment;
+    // e = y − (t − F)
+    B2_K2_error_ = dashpot::flush_below(threshold, B2_K2_increment - (B2_K2_next - B2_K2_force_));
+    B1_K1_error_ = dashpot::flush_below(threshold, B1_K1_increment - (B1_K1_next - B1_K1_force_));
+    // F = t
+    B2_K2_force_ = dashpot::flush_below(threshold, B2_K2_next);  // B2, K2
+    B1_K1_force_ = dashpot::flush_below(threshold, B1_K1_next);  // B1, K1
+    // S = Σ a_i F_i
+    relaxed_force_ = B2_K2_force_ + B1_K1_force_;
+    // u₋ = u
+    last_position_ = position;
+    sampled_ = false;
+    return {damping, force};
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // F²/(2k)
+    const scalar B2_K2_energy = B2_K2_energy_weight * B2_K2_force_ * B2_K2_force_;  // B2, K2
+    const scalar B1_K1_energy = B1_K1_energy_weight * B1_K1_force_ * B1_K1_force_;  // B1, K1
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar stored = half_static_stiffness * last_position_ * last_position_ + (B2_K2_energy + B1_K1_energy);
+    return stored;
+  }
+
+ private:
+  static constexpr scalar damping = 849.02;  // b, the brake's part
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar static_stiffness = 14.695;  // k0 [N/m]
+  static constexpr scalar step_stiffness = 25.303960455303585;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar velocity_gain = -849.02;  // b∞ − b [N·s/m]
+  static constexpr scalar B2_K2_gain = 9.556601067056787;  // a c [N/m]
+  static constexpr scalar B1_K1_gain = 15.745680401322966;  // a c [N/m]
+  static constexpr scalar B2_K2_loss = 1.3877288776188456e-05;  // α = 1 − a [1]
+  static constexpr scalar B1_K1_loss = 9.819921904897506e-05;  // α = 1 − a [1]
+  static constexpr scalar half_static_stiffness = 7.3475;  // ½ k0 [N/m]
+  static constexpr scalar B2_K2_energy_weight = 0.05232021990390614;  // 1/(2 k a²) [m/N]
+  static constexpr scalar B1_K1_energy_weight = 0.031756300081634055;  // 1/(2 k a²) [m/N]
+
+  scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
+  scalar B2_K2_force_ = 0;  // force of the mode, decayed to the next sample [N]
+  scalar B1_K1_force_ = 0;  // force of the mode, decayed to the next sample [N]
+  scalar B2_K2_error_ = 0;  // what rounding kept from the force [N]
+  scalar B1_K1_error_ = 0;  // what rounding kept from the force [N]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

@@ -1,0 +1,117 @@
+// Silicone phantom of soft tissue, a cylinder of 50 mm by 30 mm pressed by up to 3 mm
+//
+// source: Ecoflex 10 with 100 % thinner, from abubakardawood/tissue-phantom-material-database (Dawood et al. 2026,
+//   CC BY 4.0). Fitted by dashpot fit to EF10_100T_A1_to_3mm.csv
+// valid: displacement 0 to 0.003 m, rate 0 to 0.000206 m/s, frequency 0.00884 to 1.6 Hz
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
+// brake: makes b = 0 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': no damper acts
+// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
+// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
+//   'passivity'
+// passivity: not certified for any motion, any damping of the brake that is not below its command: needs 0.2343
+//   N·s/m, counted sample by sample over a hold of up to 0.001 s, at least 0 N·s/m is there, 0.2343 N·s/m more is
+//   missing in the brake's command
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
+// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 8.9e-16 of the
+//   sum of the force's terms
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+// cost of output(): 0 additions, 1 multiplication, 0 guards against subnormal numbers
+// cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 2 numbers kept between
+//   samples
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+//
+// Written by dashpot 0.1.0 from a network with digest
+// d185ee5a945457a1734b6cc42e48f068612532219d4c621ea9292a1baf5b8ba7. It belongs to whoever had it
+// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+namespace dashpot::generated {
+
+class silicone_phantom {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = false;
+  };
+
+  struct parameters {};
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    sampled_position_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // m = f − b u̇
+    const scalar force = static_stiffness * position;
+    sampled_ = false;
+    if (!dashpot::all_finite(velocity, force)) return {damping, 0};
+    sampled_ = true;
+    sampled_position_ = position;
+    return {damping, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    // m = f − b u̇
+    const scalar force = static_stiffness * position;
+    if (!dashpot::all_finite(velocity, force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
+    // u₋ = u
+    last_position_ = position;
+    sampled_ = false;
+    return {damping, force};
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar stored = half_static_stiffness * last_position_ * last_position_;
+    return stored;
+  }
+
+ private:
+  static constexpr scalar damping = 0.0;  // b, the brake's part
+  static constexpr scalar static_stiffness = 468.6;  // k0 [N/m]
+  static constexpr scalar half_static_stiffness = 234.3;  // ½ k0 [N/m]
+
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

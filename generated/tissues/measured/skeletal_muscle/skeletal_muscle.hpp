@@ -1,0 +1,144 @@
+// Passive skinned skeletal muscle, a fibre of 1 mm² and 10 mm; linear, and so far off where it stiffens
+//
+// source: Ramp-and-hold stretches from beards-lab/TitinViscoelasticity (MIT), averages without calcium. Fitted by
+//   dashpot fit to AvgRelaxed_0.1s.csv, AvgRelaxed_1s.csv, AvgRelaxed_10s.csv, AvgRelaxed_100s.csv; a column, f =
+//   E A u/L: force = stress times 1e-06 m^2, displacement = strain times 0.01 m; displacements are from each
+//   recording's first row
+// valid: displacement 0 to 0.00226 m, rate 0 to 0.0227 m/s, frequency 0.000531 to 30.3 Hz
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
+// brake: makes b = 4.005 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
+//   turns 100 % of the energy into heat at low frequency, and the brake follows it
+// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
+// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
+//   'passivity'
+// passivity: not certified for any motion, samples at 1000 Hz: needs 4.0051 N·s/m, most at 3.80179 Hz, at least
+//   4.005 N·s/m is there, 9.59054e-05 N·s/m more is missing in the brake's command
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
+// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 8.3e-13 of the
+//   sum of the force's terms
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+// cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
+// cost of update(): 1 addition, 2 multiplications, 1 guard against subnormal numbers; 4 numbers kept between
+//   samples
+// rounding: the force of a mode is off by at most 8.3e-13 of its peak
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+//   mode is a spring behind a damper, whose force dies away
+//
+// Written by dashpot 0.1.0 from a network with digest
+// bb340aede63e8734aadb99f9902fa901e1b30d6f46f45feee2968a69f53a0188. It belongs to whoever had it
+// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+namespace dashpot::generated {
+
+class skeletal_muscle {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = false;
+  };
+
+  struct parameters {};
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    B1_K1_force_ = 0;
+    sampled_position_change_ = 0;
+    sampled_position_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = B1_K1_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
+    sampled_ = false;
+    if (!dashpot::all_finite(force)) return {damping, 0};
+    sampled_ = true;
+    sampled_position_change_ = position_change;
+    sampled_position_ = position;
+    return {damping, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    // F ← a (F + c Δu)
+    B1_K1_force_ = dashpot::relaxed(threshold, B1_K1_decay, B1_K1_force_, B1_K1_gain * sampled_position_change_);
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = B1_K1_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
+    // F ← a (F + c Δu)
+    B1_K1_force_ = dashpot::relaxed(threshold, B1_K1_decay, B1_K1_force_, B1_K1_gain * position_change);
+    // u₋ = u
+    last_position_ = position;
+    sampled_ = false;
+    return {damping, force};
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // F²/(2k)
+    const scalar B1_K1_energy = B1_K1_energy_weight * B1_K1_force_ * B1_K1_force_;
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar stored = half_static_stiffness * last_position_ * last_position_ + B1_K1_energy;
+    return stored;
+  }
+
+ private:
+  static constexpr scalar damping = 4.005;  // b, the brake's part
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar static_stiffness = 3.146;  // k0 [N/m]
+  static constexpr scalar step_stiffness = 1.6156740193759802;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar velocity_gain = -4.005;  // b∞ − b [N·s/m]
+  static constexpr scalar B1_K1_gain = 1.615022233474136;  // a c [N/m]
+  static constexpr scalar B1_K1_decay = 0.9995965857629523;  // a = e^{−λh} [1]
+  static constexpr scalar half_static_stiffness = 1.573;  // ½ k0 [N/m]
+  static constexpr scalar B1_K1_energy_weight = 0.30965572925927576;  // 1/(2 k a²) [m/N]
+
+  scalar B1_K1_force_ = 0;  // force of the mode, decayed to the next sample [N]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

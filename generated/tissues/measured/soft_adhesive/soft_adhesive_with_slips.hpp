@@ -1,0 +1,181 @@
+// The same by slips: nearer to what it was fitted to, further from the recording that goes back
+//
+// source: Steps with holds from Chongran-Zhao/Viscoelastic-fitting (MIT), a pad of 100 mm² and 0.13 mm. Fitted by
+//   dashpot fit to shear_relaxation_1.csv, shear_relaxation_2.csv, shear_relaxation_5.csv
+// valid: displacement 0 to 0.0013 m, rate 0 to 1.43e-05 m/s, frequency 0.00012 to 0.333 Hz
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+//   samples in which a slip or a contact changes
+// brake: makes b = 441280 N·s/m of damping, behind slips also what follows, and the motor the rest of the force;
+//   by the rule 'faithful': without a device 'faithful' is the paper's rule: in series, B1 turns 100 % of the
+//   energy into heat at low frequency, and the brake follows it
+// behind Y1: velocity-free, the only damping of what slides is at the tool; b = 0 N·s/m stuck, 0 sliding
+// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
+// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
+//   'passivity'
+// passivity: certified for any motion, whatever slides, sticks, touches or lets go, samples at 1000 Hz: needs
+//   419496 N·s/m, most at 0.791694 Hz, at least 441280 N·s/m is there
+//   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
+//   is added for passivity
+// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
+//   rounding adds at most 1.8e-15 of the sum of the force's terms
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+// cost of output(): 6 additions, 4 multiplications, 0 guards against subnormal numbers
+// cost of update(): 5 additions, 2 multiplications, 3 guards against subnormal numbers; 7 numbers kept between
+//   samples
+// rounding: in compensated form the force of a mode is off by at most 6.7e-16 of its peak
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+//   mode is a spring behind a damper, whose force dies away
+//
+// Written by dashpot 0.1.0 from a network with digest
+// 2899e8e36b3478b5b54d64ec28dd9973e0c9ddf1f34071da5a464a519a60cb52. It belongs to whoever had it
+// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+namespace dashpot::generated {
+
+class soft_adhesive_with_slips {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = true;
+  };
+
+  struct parameters {};
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    B1_K1_force_ = 0;
+    B1_K1_error_ = 0;
+    S1_spring_force_ = 0;
+    sampled_position_change_ = 0;
+    sampled_Y1_slip_ = 0;
+    sampled_position_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // t = stuck trial
+    const scalar Y1_trial = Y1_trial_by_change * position_change + S1_spring_force_;
+    // s = clamp(t, ±Y)
+    const scalar Y1_slip = dashpot::clamp_to(Y1_yield, Y1_trial);
+    // m = f − b u̇
+    const scalar force = B1_K1_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity) + Y1_slip;
+    sampled_ = false;
+    if (!dashpot::all_finite(force)) return {damping, 0};
+    sampled_ = true;
+    sampled_position_change_ = position_change;
+    sampled_Y1_slip_ = Y1_slip;
+    sampled_position_ = position;
+    return {damping, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    // F ← F + k δ
+    S1_spring_force_ = dashpot::flush_below(threshold, sampled_Y1_slip_);
+    // y = (a c Δu − α F) + e
+    const scalar B1_K1_increment = B1_K1_gain * sampled_position_change_ - B1_K1_loss * B1_K1_force_ + B1_K1_error_;
+    // t = F + y
+    const scalar B1_K1_next = B1_K1_force_ + B1_K1_increment;
+    // e = y − (t − F)
+    B1_K1_error_ = dashpot::flush_below(threshold, B1_K1_increment - (B1_K1_next - B1_K1_force_));
+    // F = t
+    B1_K1_force_ = dashpot::flush_below(threshold, B1_K1_next);
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // t = stuck trial
+    const scalar Y1_trial = Y1_trial_by_change * position_change + S1_spring_force_;
+    // s = clamp(t, ±Y)
+    const scalar Y1_slip = dashpot::clamp_to(Y1_yield, Y1_trial);
+    // m = f − b u̇
+    const scalar force = B1_K1_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity) + Y1_slip;
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
+    // F ← F + k δ
+    S1_spring_force_ = dashpot::flush_below(threshold, Y1_slip);
+    // y = (a c Δu − α F) + e
+    const scalar B1_K1_increment = B1_K1_gain * position_change - B1_K1_loss * B1_K1_force_ + B1_K1_error_;
+    // t = F + y
+    const scalar B1_K1_next = B1_K1_force_ + B1_K1_increment;
+    // e = y − (t − F)
+    B1_K1_error_ = dashpot::flush_below(threshold, B1_K1_increment - (B1_K1_next - B1_K1_force_));
+    // F = t
+    B1_K1_force_ = dashpot::flush_below(threshold, B1_K1_next);
+    // u₋ = u
+    last_position_ = position;
+    sampled_ = false;
+    return {damping, force};
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // F²/(2k)
+    const scalar B1_K1_energy = B1_K1_energy_weight * B1_K1_force_ * B1_K1_force_;
+    // F²/(2k)
+    const scalar S1_spring_energy = S1_compliance * S1_spring_force_ * S1_spring_force_;
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar stored = half_static_stiffness * last_position_ * last_position_ + B1_K1_energy + S1_spring_energy;
+    return stored;
+  }
+
+ private:
+  static constexpr scalar damping = 441280.0;  // b, the brake's part
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar static_stiffness = 1818.0;  // k0 [N/m]
+  static constexpr scalar step_stiffness = 7333.93589124845;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar velocity_gain = -419500.0;  // b∞ − b [N·s/m]
+  static constexpr scalar Y1_trial_by_change = 2723.0;  // for a change of position [N/m]
+  static constexpr scalar Y1_yield = 1.272;  // Y [N]
+  static constexpr scalar B1_K1_gain = 7333.807675239733;  // a c [N/m]
+  static constexpr scalar B1_K1_loss = 1.748256469904279e-05;  // α = 1 − a [1]
+  static constexpr scalar half_static_stiffness = 909.0;  // ½ k0 [N/m]
+  static constexpr scalar B1_K1_energy_weight = 6.81780042300477e-05;  // 1/(2 k a²) [m/N]
+  static constexpr scalar S1_compliance = 0.0001836210062431142;  // 1/(2 k) [m/N]
+
+  scalar B1_K1_force_ = 0;  // force of the mode, decayed to the next sample [N]
+  scalar B1_K1_error_ = 0;  // what rounding kept from the force [N]
+  scalar S1_spring_force_ = 0;  // force of the spring [N]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar sampled_Y1_slip_ = 0;  // the slip's force, at this sample [N]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

@@ -37,6 +37,13 @@ Json json_of(const Candidate& c) {
           {"state_inputs", inputs}};
 }
 
+Json json_of(const std::vector<Mode>& modes) {
+  Json list = Json::array();
+  for (const Mode& mode : modes)
+    list.push_back({{"stiffness", to_double(mode.stiffness)}, {"relaxation_rate", to_double(mode.relaxation_rate)}});
+  return list;
+}
+
 const SlipLawMerit* merit_of(const SlipDecomposition& slips, SlipLaw law) {
   for (const SlipLawMerit& merit : slips.merits)
     if (merit.law == law) return &merit;
@@ -59,6 +66,7 @@ Json json_of(const SlipDecomposition& slips, const ComponentSplit& split, std::s
           {"feedthrough_damping", to_double(regime.feedthrough())},
           {"zero_frequency_damping", to_double(zero_frequency_damping(regime.form))},
           {"static_stiffness", to_double(regime.form.static_stiffness)},
+          {"modes", json_of(regime.form.modes)},
           {"state_input", name_of(StateInput::position)},
           {"velocity_gain", share.compensation},
           {"motor_noise", is_exact ? Json(0.0) : or_null(merit->motor_noise)},
@@ -103,6 +111,7 @@ Json json_of_contact(const Compilation& c, bool touches) {
           {"feedthrough_damping", in_touch(to_double(form.feedthrough_damping))},
           {"zero_frequency_damping", in_touch(to_double(zero_frequency_damping(form)))},
           {"static_stiffness", in_touch(to_double(form.static_stiffness))},
+          {"modes", touches ? json_of(form.modes) : Json::array()},
           {"state_input", name_of(StateInput::position)},
           {"velocity_gain", in_touch(choice.velocity_gain)},
           {"motor_noise", touches ? or_null(choice.motor_noise) : Json(0.0)},
@@ -234,9 +243,7 @@ Json json_of(const Validity& valid) {
 }
 
 Json explained(const Compilation& c) {
-  Json modes = Json::array(), kelvin = Json::array(), candidates = Json::array();
-  for (const Mode& mode : c.form.linear.modes)
-    modes.push_back({{"stiffness", to_double(mode.stiffness)}, {"relaxation_rate", to_double(mode.relaxation_rate)}});
+  Json kelvin = Json::array(), candidates = Json::array();
   const KelvinForm creep = kelvin_form(c.form.linear);
   for (const KelvinElement& element : creep.elements)
     kelvin.push_back({{"stiffness", to_double(element.stiffness)}, {"damping", to_double(element.damping)}});
@@ -247,7 +254,7 @@ Json explained(const Compilation& c) {
               {"units", json_of(port_units(c.network.port_motion))},
               {"static_stiffness", to_double(c.form.linear.static_stiffness)},
               {"feedthrough_damping", to_double(c.form.linear.feedthrough_damping)},
-              {"modes", modes},
+              {"modes", json_of(c.form.linear.modes)},
               {"zero_frequency_damping", to_double(zero_frequency_damping(c.form.linear))},
               {"kelvin",
                {{"glass_compliance", to_double(creep.glass_compliance)},

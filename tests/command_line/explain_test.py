@@ -650,6 +650,16 @@ class Json(CommandTest):
         self.assertEqual(self.explained(FIG_5)["regimes"], [])
 
 
+    def test_regimes_relax(self):
+        """Fails if a regime does not tell what relaxes in it: the branch behind a slip while that holds, of a contact
+        what it touches."""
+        branch = '{ "series": [ { "spring": 40 }, { "damper": 8 } ] }'
+        slip = f'{{ "series": [ {{ "slip": 1 }}, {{ "parallel": [ {{ "spring": 20 }}, {branch} ] }} ] }}'
+        for structure, surface in [(slip, ""), (branch, '"contact": { "at": 0 },')]:
+            self.write("sample.json", network(structure, more=surface))
+            held, left = self.explained("sample.json")["regimes"]
+            self.assertEqual((held["modes"], left["modes"]), ([{"stiffness": 40, "relaxation_rate": 5}], []))
+
     def test_regimes_of_coupled_slips(self):
         """Fails if slips that are coupled, in no tree, or behind a contact have no regimes, or the tool that is free
         none."""

@@ -63,13 +63,6 @@ class Fitter {
     }
     measure();
     const bool has_no_curve = fit_.model.curve && curve_stiffness(fit_.model).value == 0;
-    if (has_no_curve && fit_.model.slip_count() > 0) {
-      diagnostics_.report<DiagnosticCode::fit_choices_contradict>(
-          {}, "--shape", "--slips",
-          "only springs behind slips hold the tool in these recordings, and a static curve is the force of a spring "
-          "that reaches the ground or of relaxations; leave one of the two out");
-      return std::nullopt;
-    }
     if (fit_.model.terms.empty() || elements_of(whole_, fit_.model).empty() || has_no_curve) {
       diagnostics_.report<DiagnosticCode::fit_nothing_resists>({});
       return std::nullopt;

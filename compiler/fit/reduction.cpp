@@ -219,7 +219,7 @@ class Reducer {
     return refined(problem_, std::move(model), choices_.gains_are_free, limits);
   }
 
-  // A curve in a file is the force of a spring or of relaxations.
+  // A curve in a file is the force of springs, at rest or at once.
   static bool can_be_written(const Model& model) { return !model.curve || curve_stiffness(model).value > 0; }
 
   double score(const Model& model, double effective) const {

@@ -52,9 +52,16 @@ double value_of(const Model& model, const ElementQuantity& quantity) {
 CurveStiffness curve_stiffness(const Model& model) {
   CurveStiffness at_rest, at_once{0, true};
   for (std::size_t j = 0; j < model.terms.size(); ++j) {
-    const TermKind kind = model.terms[j].kind;
-    if (kind == TermKind::spring) at_rest.value += model.weight(j);
-    if (kind == TermKind::maxwell || kind == TermKind::springpot) at_once.value += model.weight(j);
+    switch (model.terms[j].kind) {
+      case TermKind::spring: at_rest.value += model.weight(j); break;
+      case TermKind::maxwell:
+      case TermKind::stop:
+      case TermKind::sliding:
+      case TermKind::springpot: at_once.value += model.weight(j); break;
+      case TermKind::damper:
+      case TermKind::offset:
+      case TermKind::initial: break;
+    }
   }
   return at_rest.value > 0 ? at_rest : at_once;
 }

@@ -28,9 +28,9 @@ struct CurveQuantity {
 double value_of(const Model& model, const CurveQuantity& quantity);
 std::vector<CurveQuantity> curve_quantities(const CurveShape& curve);
 
-// The stiffness that a network's static curve is made from: of the spring from tool to ground, or if there is none, of
-// all Maxwell branches and springpots [N/m]; `is_instantaneous` for the latter. What slips hold comes on top. 0 of
-// slips and dampers alone, behind which no curve can be written.
+// The stiffness that a network's static curve is made from: of the spring from tool to ground, what slips hold then
+// coming on top; or if there is none, of all springs, those of Maxwell branches and in front of slips too, and of
+// springpots [N/m]; `is_instantaneous` for the latter. 0 of dampers alone, behind which no curve can be written.
 struct CurveStiffness {
   double value = 0;
   bool is_instantaneous = false;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "network/stuck_slips.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -134,14 +136,15 @@ double reach_of(const Network& network) {
 }
 
 std::optional<Real> stiffness_of(const Network& network, const LinearForm& form, Diagnostics& diagnostics) {
-  Real stiffness = form.static_stiffness;
   if (network.static_curve->is_instantaneous) {
-    for (const Mode& mode : form.modes) stiffness += mode.stiffness;
+    const LinearForm at_once = has_slips(network) ? linear_form(with_stuck_slips(network)) : form;
+    Real stiffness = at_once.static_stiffness;
+    for (const Mode& mode : at_once.modes) stiffness += mode.stiffness;
     if (stiffness > 0) return stiffness;
     diagnostics.report<DiagnosticCode::static_without_springs>(network.static_curve->span);
     return std::nullopt;
   }
-  if (stiffness > 0) return stiffness;
+  if (form.static_stiffness > 0) return form.static_stiffness;
   diagnostics.report<DiagnosticCode::static_without_rest>(network.static_curve->span);
   diagnostics.note<DiagnosticCode::static_rest_remedy>({});
   return std::nullopt;

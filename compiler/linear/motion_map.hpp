@@ -24,10 +24,10 @@ inline constexpr double most_static_error = 5e-4;     // above it, more cubics a
 inline constexpr double largest_static_error = 1e-2;  // above it, a curve is refused
 inline constexpr std::size_t most_cubics = 1024;
 
-// In: a network with a static curve, and the form of its part that reaches ground without a slip. Out: its map, of 32
-// cubics, doubled until the static force is off by no more than `error` of the largest, or up to most_cubics. Refuses:
-// a curve at rest for a network that holds no force at rest, a curve at once for one without springs, a curve that
-// bends too sharply.
+// In: a network with a static curve, and the form of its part that reaches ground without a slip, whose k0 a curve at
+// rest takes; a curve at once takes k0 + Σ k_i of the network while all slips hold. Out: its map, of 32 cubics, doubled
+// until the static force is off by no more than `error` of the largest, or up to most_cubics. Refuses: a curve at rest
+// for a network that holds no force at rest, a curve at once for one without springs, a curve that bends too sharply.
 std::optional<MotionMap> motion_map(const Network& network, const LinearForm& form, Diagnostics& diagnostics,
                                     double error = most_static_error);
 

@@ -11,7 +11,7 @@ struct ReferenceMap {
   std::vector<Reference> begins, a, b, c, e;
 };
 
-// Of a network whose linear part is `form`.
+// Of a network whose linear part is `form`; of a curve at once, that of the network while its slips hold.
 ReferenceMap reference_map(const Network& network, const ReferenceForm& form, std::size_t cubics);
 
 }  // namespace dashpot::compiler

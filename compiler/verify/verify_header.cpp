@@ -5,6 +5,7 @@
 #include "certify/proved_bound.hpp"
 #include "certify/quantisation.hpp"
 #include "network/law.hpp"
+#include "network/stuck_slips.hpp"
 #include "verify/law_constants.hpp"
 #include "verify/port_constants.hpp"
 #include "verify/realised_network.hpp"
@@ -152,8 +153,11 @@ class Verification {
 // The tables of a static curve's map.
 void recompute_map(const HeaderConstants& header, const Compilation& compiled, Diagnostics& diagnostics) {
   const MotionMap& map = *compiled.network.map;
-  const Network linear = linear_part(compiled.network, compiled.form);
-  const ReferenceMap exact = reference_map(compiled.network, reference_form(linear), map.cubics());
+  const Network& network = compiled.network;
+  const Network linear = network.static_curve->is_instantaneous && has_slips(network)
+                             ? with_stuck_slips(network)
+                             : linear_part(network, compiled.form);
+  const ReferenceMap exact = reference_map(network, reference_form(linear), map.cubics());
   for (const auto& [name, expected] :
        {std::pair("cell_begins", &exact.begins), std::pair("map_a", &exact.a), std::pair("map_b", &exact.b),
         std::pair("map_c", &exact.c), std::pair("map_e", &exact.e)}) {

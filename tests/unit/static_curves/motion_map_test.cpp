@@ -61,6 +61,20 @@ TEST(MotionMap, InstantaneousCurveTakesAllSprings) {
   EXPECT_EQ(map.stiffness, 600);
 }
 
+// Fails if a curve at once leaves out springs in front of slips, which hold in a step, or takes one that a stuck slip
+// bridges; or if a curve at rest takes them.
+TEST(MotionMap, InstantaneousCurveTakesSlipsForStuck) {
+  const std::string behind_slips = R"({ "parallel": [ { "spring": "400 N/m" }, { "damper": "3 N s/m" },
+      { "series": [ { "slip": "1 N" }, { "spring": "200 N/m" } ] },
+      { "series": [ { "parallel": [ { "slip": "1 N" }, { "spring": "70 N/m" } ] }, { "spring": "50 N/m" },
+                    { "damper": "2 N s/m" } ] } ] })";
+  const std::string at_once = R"({ "power": 1.5, "force": "2 N", "at": "5 mm", "is": "instantaneous" })";
+  EXPECT_EQ(compiled(behind(at_once, "", behind_slips)).network.map->stiffness, 650);
+  EXPECT_EQ(compiled(behind(hertz, "", behind_slips)).network.map->stiffness, 400);
+  const std::string slips_alone = R"({ "series": [ { "slip": "1 N" }, { "spring": "200 N/m" } ] })";
+  EXPECT_EQ(compiled(behind(at_once, "", slips_alone)).network.map->stiffness, 200);
+}
+
 TEST(MotionMap, TangentIsTheDerivativeOfTheValue) {
   for (const char* curve : {hertz, exponential, table}) {
     const MotionMap map = map_of(curve);

@@ -702,6 +702,12 @@ std::string spelt(const TableShape& shape, std::size_t index) {
   return spelt_by(index < columns.size() ? columns[index].name : "", index, columns, shape.width);
 }
 
+std::string spelt(const ColumnRequest& request) {
+  std::string part = std::string(name_of(request.role)) + "=" + (request.is_negated ? "-" : "") + request.name;
+  if (request.offset != 0) part += fmt::format("{:+}", request.offset);
+  return request.unit ? part + ":" + *request.unit : part;
+}
+
 const char* name_of(Role role) { return rule_of(role).word; }
 
 std::string other_names_of(Role role) {

@@ -119,6 +119,7 @@ std::string columns_word(const std::string& columns);  // the same of what follo
 
 // What --columns calls a column: its name, or its number where that would be read as something else.
 std::string spelt(const TableShape& shape, std::size_t index);
+std::string spelt(const ColumnRequest& request);  // as a part of --columns
 
 // A quantity as the command line spells it, "10 mm" or "1kPa".
 struct SpokenQuantity {

@@ -82,9 +82,11 @@ class RecordingReader {
     if (material != nullptr && !choices_.geometry && !choices_.awaits_geometry) {
       diagnostics_.report<DiagnosticCode::recording_without_geometry>({}, lines_.path(), material->title,
                                                                       name_of(material->role));
+      std::vector<std::string> parts;
+      for (const ColumnRequest& request : choices_.columns.requests) parts.push_back(spelt(request));
       diagnostics_.note<DiagnosticCode::recording_answer>(
           {}, "with your specimen's numbers",
-          choices_.columns.command + (choices_.columns.requests.empty() ? "" : " --columns …") +
+          (parts.empty() ? choices_.columns.command : with_columns(parts)) +
               " --geometry column:area=1mm^2,length=10mm");
       diagnostics_.note<DiagnosticCode::geometry_known>({});
       if (!shape_.metadata.empty())
@@ -387,16 +389,16 @@ class RecordingReader {
       const bool is_turned = std::find(roles.begin(), roles.end(), column.role) != roles.end();
       const auto request = std::find_if(choices_.columns.requests.begin(), choices_.columns.requests.end(),
                                         [&](const ColumnRequest& r) { return r.role == column.role; });
-      std::string part = std::string(name_of(column.role)) + "=";
-      if (request == choices_.columns.requests.end()) {
-        part += (is_turned ? "-" : "") + spelt(shape_, column.index);
-      } else {
-        part += (request->is_negated != is_turned ? "-" : "") + request->name;
-        if (request->offset != 0) part += fmt::format("{:+}", request->offset);
-        if (request->unit) part += ":" + *request->unit;
-      }
-      parts.push_back(part);
+      ColumnRequest wanted = request != choices_.columns.requests.end()
+                                 ? *request
+                                 : ColumnRequest{column.role, spelt(shape_, column.index), false, 0, {}};
+      wanted.is_negated = wanted.is_negated != is_turned;
+      parts.push_back(spelt(wanted));
     }
+    return with_columns(parts);
+  }
+
+  std::string with_columns(const std::vector<std::string>& parts) const {
     return choices_.columns.command + " --columns " + columns_word(fmt::format("{}", fmt::join(parts, ",")));
   }
 

@@ -4,6 +4,7 @@ import json
 import math
 import os
 import re
+import shlex
 import subprocess
 import unittest
 
@@ -135,6 +136,9 @@ int main() {
         done = self.dashpot("fit", TITIN[0], "--columns", "time=Time:s,strain=L-0.95,stress=F:kPa",
                             status=INPUT_REFUSED)
         self.assertIn("[recording-without-geometry]", done.stderr)
+        (answer,) = re.findall(r"this answers it, .*: dashpot (.*)", done.stderr)
+        self.assertIn("--columns time=Time:s,strain=L-0.95,stress=F:kPa --geometry", answer)
+        self.dashpot(*shlex.split(answer))
 
     def test_several_files(self):
         """Fails if slips, gains, a file held out or a page are not there in the end."""

@@ -13,6 +13,7 @@
 #include "source/counted.hpp"
 #include "source/excerpt.hpp"
 #include "source/nearest_name.hpp"
+#include "source/utf8.hpp"
 
 namespace dashpot::compiler::fitting {
 namespace {
@@ -219,10 +220,11 @@ std::optional<std::size_t> index_of(const std::string& name, const std::vector<T
   return std::nullopt;
 }
 
-// The name of a column; its number where it has none, or where the name would be read as something else.
+// The name of a column; its number where it has none, or where the name would be read as something else or cannot be
+// shown.
 std::string spelt_by(const std::string& name, std::size_t index, const std::vector<TableColumn>& columns,
                      std::size_t width) {
-  const bool is_plain = !name.empty() && name.find_first_of(",:=+-") == std::string::npos;
+  const bool is_plain = !name.empty() && name.find_first_of(",:=+-") == std::string::npos && is_utf8(name);
   return is_plain && index_of(name, columns, width) == index ? name : std::to_string(index + 1);
 }
 

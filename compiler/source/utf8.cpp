@@ -37,6 +37,11 @@ std::size_t code_point_length(std::string_view text) {
   return 0;
 }
 
+bool is_utf8(std::string_view text) {
+  while (const std::size_t length = code_point_length(text)) text.remove_prefix(length);
+  return text.empty();
+}
+
 std::string_view first_code_points(std::string_view text, std::size_t count) {
   std::size_t end = 0;
   for (std::size_t i = 0; i < count && end < text.size(); ++i)

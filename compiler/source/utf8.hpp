@@ -10,6 +10,9 @@ namespace dashpot::compiler {
 // surrogates, nothing above U+10FFFF); 0 where it starts with none, an empty text included.
 std::size_t code_point_length(std::string_view text);
 
+// Whether it is made of well-formed code points alone.
+bool is_utf8(std::string_view text);
+
 // The first `count` code points of `text`; a stray byte counts as one.
 std::string_view first_code_points(std::string_view text, std::size_t count);
 

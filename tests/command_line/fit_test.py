@@ -140,6 +140,14 @@ int main() {
         self.assertIn("--columns time=Time:s,strain=L-0.95,stress=F:kPa --geometry", answer)
         self.dashpot(*shlex.split(answer))
 
+    def test_answers_where_a_name_cannot_be_shown(self):
+        """Fails if the answer to a question calls a column in another encoding by a name that finds nothing."""
+        self.write("latin.csv", recording(header="time [s],position [mm],Kräft [N]").encode("latin-1"))
+        done = self.dashpot("fit", "latin.csv", "-o", "latin.json", status=INPUT_REFUSED)
+        (answer,) = re.findall(r"this answers it, .*: dashpot (.*)", done.stderr)
+        self.assertIn("position=position [mm],force=3'", answer)
+        self.dashpot(*shlex.split(answer))
+
     def test_several_files(self):
         """Fails if slips, gains, a file held out or a page are not there in the end."""
         told = self.told(*ADHESIVE, "--slips", "2", "--modes", "2", "--gain-per-file", "-o", "adhesive.json",

@@ -670,15 +670,15 @@ ColumnRequest request_of(Role role, std::string text) {
     request.is_negated = true;
     text.erase(0, 1);
   }
-  const std::size_t sign = text.find_last_of("+-");
-  if (sign != std::string::npos && sign > 0) {
+  // From the first sign behind which all is a number: the last may be that of an exponent.
+  for (std::size_t sign = text.find_first_of("+-", 1); sign < text.size(); sign = text.find_first_of("+-", sign + 1)) {
     const std::string number = text.substr(sign + (text[sign] == '+' ? 1 : 0));
     double value = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-    if (error == std::errc() && end == number.data() + number.size() && std::isfinite(value)) {
-      request.offset = value;
-      text.erase(sign);
-    }
+    if (error != std::errc() || end != number.data() + number.size() || !std::isfinite(value)) continue;
+    request.offset = value;
+    text.erase(sign);
+    break;
   }
   request.name = text;
   return request;

@@ -148,6 +148,14 @@ int main() {
         self.assertIn("position=position [mm],force=3'", answer)
         self.dashpot(*shlex.split(answer))
 
+    def test_a_zero_that_is_moved_by_little(self):
+        """Fails if the sign of an exponent is read as that in front of a number."""
+        self.write("zener.csv", recording())
+        told = [self.told("zener.csv", "--columns", f"time=time,position=position{zero},force=force")["elements"]
+                for zero in ("-0.00001", "-1e-5", "-1E-05")]
+        self.assertEqual(told[0], told[1])
+        self.assertEqual(told[0], told[2])
+
     def test_several_files(self):
         """Fails if slips, gains, a file held out or a page are not there in the end."""
         told = self.told(*ADHESIVE, "--slips", "2", "--modes", "2", "--gain-per-file", "-o", "adhesive.json",

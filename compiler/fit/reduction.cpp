@@ -350,7 +350,10 @@ class Reducer {
   }
 
   void choose(Reduction& result) const {
-    if (choices_.ask_for_a_size()) return choose_as_asked(result);
+    if (choices_.ask_for_a_size()) {
+      choose_as_asked(result);
+      if (result.is_converged) return;
+    }
     result.chosen = result.path.size() - 1;
     for (std::size_t k = 0; k < result.path.size(); ++k)
       if (is_determined(result.path[k]) && result.path[k].criterion < result.path[result.chosen].criterion)
@@ -436,8 +439,9 @@ class Reducer {
   }
 
   void take_better(Reduction& best, Reduction other) const {
-    const bool is_less = choices_.tolerance ? parameters(other.model) < parameters(best.model)
-                                            : score(other.model, effective_) < score(best.model, effective_);
+    const bool is_less = choices_.tolerance && best.is_converged
+                             ? parameters(other.model) < parameters(best.model)
+                             : score(other.model, effective_) < score(best.model, effective_);
     const bool is_better = other.is_converged == best.is_converged ? is_less : other.is_converged;
     if (is_better) best = std::move(other);
   }

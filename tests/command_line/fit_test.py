@@ -156,6 +156,16 @@ int main() {
         self.assertEqual(told[0], told[1])
         self.assertEqual(told[0], told[2])
 
+    def test_a_size_that_is_not_there(self):
+        """Fails if the warning says that the size with the least BIC is taken, and another one is."""
+        self.write("creep.csv", "time [s],compliance [mm/N]\n0.1,10\n1,11\n10,20\n100,30\n1000,33\n")
+        for words in (["--tolerance", "1e-9%"], ["--modes", "9"]):
+            done = self.fit("creep.csv", *words, "--json")
+            self.assertIn("[fit-size-not-met]", done.stderr)
+            sizes = json.loads(done.stdout)["sizes"]
+            taken = [size["criterion"] for size in sizes if size["chosen"]]
+            self.assertEqual(taken, [min(size["criterion"] for size in sizes if size["parameters"] <= 3)])
+
     def test_several_files(self):
         """Fails if slips, gains, a file held out or a page are not there in the end."""
         told = self.told(*ADHESIVE, "--slips", "2", "--modes", "2", "--gain-per-file", "-o", "adhesive.json",

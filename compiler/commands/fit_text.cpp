@@ -126,15 +126,30 @@ class FitText {
     return text;
   }
 
+  std::string how_a_size_is_taken() const {
+    const char* const least = "the least BIC (Bayesian information criterion)";
+    const bool is_missed = std::any_of(fit_.findings.begin(), fit_.findings.end(), [](const Finding& finding) {
+      return finding.kind == Finding::Kind::size_not_met;
+    });
+    const ReductionChoices& asked = fit_.choices.reduction;
+    if (asked.ask_for_a_size() && !is_missed)
+      return fmt::format("Of what was asked for the size with {} is taken (*)",
+                         asked.tolerance ? "the fewest elements" : least);
+    const bool are_determined =
+        std::all_of(fit_.path.begin(), fit_.path.end(), [](const PathEntry& entry) { return entry.is_determined; });
+    return fmt::format("The size with {} is taken (*)", least) +
+           (are_determined ? "" : ", but none whose parameters are too many for so few rows (-)");
+  }
+
   std::string path() const {
-    std::string text =
-        "\nsizes that were tried; afterwards elements that the data do not need are dropped. The size with the least "
-        "BIC (Bayesian information criterion) is taken (*)\n  relaxations  slips  "
-        "springpots  parameters         rms        BIC\n";
+    std::string text = "\nsizes that were tried; afterwards elements that the data do not need are dropped. " +
+                       how_a_size_is_taken() +
+                       "\n  relaxations  slips  springpots  parameters         rms        BIC\n";
     for (std::size_t i = 0; i < fit_.path.size(); ++i) {
       const PathEntry& entry = fit_.path[i];
       const std::size_t slips = entry.model.slip_count();
-      text += fmt::format("{} {:>11}  {:>5}  {:>10}  {:>10}  {:>10}  {:>9.2f}\n", i == fit_.chosen ? "*" : " ",
+      const char* const mark = i == fit_.chosen ? "*" : entry.is_determined ? " " : "-";
+      text += fmt::format("{} {:>11}  {:>5}  {:>10}  {:>10}  {:>10}  {:>9.2f}\n", mark,
                           entry.model.count(TermKind::maxwell), slips, entry.model.count(TermKind::springpot),
                           entry.parameters, error(entry.rms), entry.criterion);
     }

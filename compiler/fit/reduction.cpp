@@ -236,7 +236,7 @@ class Reducer {
       const bool is_last = reducible_count(model) == 0;
       if (can_be_written(model) || (is_last && result.path.empty()))
         result.path.push_back({model, score(model, effective_), parameters(model),
-                               std::sqrt(model.residual_sum / problem_.weighed_rows())});
+                               std::sqrt(model.residual_sum / problem_.weighed_rows()), is_determined(model)});
       if (progress_) progress_(reducible_count(model));
       if (is_last) break;
     }
@@ -246,6 +246,10 @@ class Reducer {
   }
 
   std::size_t parameters(const Model& model) const { return parameter_count(model, choices_.gains_are_free); }
+
+  bool is_determined(const Model& model) const {
+    return static_cast<double>(parameters(model)) + 2 <= problem_.weighed_rows();
+  }
 
   static std::size_t reducible_count(const Model& model) {
     return static_cast<std::size_t>(std::count_if(model.terms.begin(), model.terms.end(), is_reducible));
@@ -356,13 +360,8 @@ class Reducer {
     }
     result.chosen = result.path.size() - 1;
     for (std::size_t k = 0; k < result.path.size(); ++k)
-      if (is_determined(result.path[k]) && result.path[k].criterion < result.path[result.chosen].criterion)
+      if (result.path[k].is_determined && result.path[k].criterion < result.path[result.chosen].criterion)
         result.chosen = k;
-  }
-
-  // As many parameters as rows fit anything.
-  bool is_determined(const PathEntry& entry) const {
-    return static_cast<double>(entry.parameters) + 2 <= problem_.weighed_rows();
   }
 
   double relative_error(const Model& model) const { return std::sqrt(model.residual_sum) / problem_.target().norm(); }

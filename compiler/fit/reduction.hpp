@@ -33,7 +33,8 @@ struct PathEntry {
   Model model;
   double criterion;
   std::size_t parameters;
-  double rms;  // of the weighted rows
+  double rms;          // of the weighted rows
+  bool is_determined;  // false: about as many parameters as rows, which fit anything, whatever the criterion says
 };
 
 // The best network behind one kind of curve, or behind none.

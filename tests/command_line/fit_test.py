@@ -166,6 +166,22 @@ int main() {
             taken = [size["criterion"] for size in sizes if size["chosen"]]
             self.assertEqual(taken, [min(size["criterion"] for size in sizes if size["parameters"] <= 3)])
 
+    def test_says_how_a_size_was_chosen(self):
+        """Fails if another size is marked than that of which the text says that it is taken."""
+        self.write("zener.csv", recording())
+        self.write("creep.csv", "time [s],compliance [mm/N]\n0.1,10\n1,11\n10,20\n100,30\n1000,33\n")
+        for words, text, most in (
+                (["zener.csv"], "The size with the least BIC (Bayesian information criterion) is taken (*)\n", 99),
+                (["creep.csv", "--tolerance", "1e-9%"], "The size with the least BIC", 3),
+                (["zener.csv", "--modes", "0"], "Of what was asked for the size with the least BIC", 2),
+                (["zener.csv", "--tolerance", "90%"], "Of what was asked for the size with the fewest elements", 2),
+                (["creep.csv"], "is taken (*), but none whose parameters are too many for so few rows (-)\n", 3)):
+            with self.subTest(words):
+                self.assertIn(text, self.fit(*words).stdout)
+                sizes = self.told(*words)["sizes"]
+                taken = [size["criterion"] for size in sizes if size["chosen"]]
+                self.assertEqual(taken, [min(size["criterion"] for size in sizes if size["parameters"] <= most)])
+
     def test_several_files(self):
         """Fails if slips, gains, a file held out or a page are not there in the end."""
         told = self.told(*ADHESIVE, "--slips", "2", "--modes", "2", "--gain-per-file", "-o", "adhesive.json",

@@ -532,6 +532,9 @@ std::string complaint_about_option(const CLI::App& app, const std::vector<std::s
   std::vector<std::string> names;
   for (const CLI::Option* option : found.front()->get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const auto is_letter = [&](const std::string& name) {  // perhaps with its value, as in -oFILE
+    return name[1] != '-' && found.front()->get_option_no_throw(name.substr(0, 2)) != nullptr;
+  };
   for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
     const std::string name = option_of(arguments[i]);
     const CLI::Option* option = name.starts_with('-') ? found.front()->get_option_no_throw(name) : nullptr;
@@ -539,7 +542,7 @@ std::string complaint_about_option(const CLI::App& app, const std::vector<std::s
     if (takes_next) ++i;
     if (option != nullptr && option->get_items_expected_max() == 0 && name != arguments[i])
       return "'" + name + "' takes no value\n";
-    if (option != nullptr || !name.starts_with("--")) continue;
+    if (option != nullptr || !name.starts_with('-') || name == "-" || is_letter(name)) continue;
     const std::optional<std::string> nearest = nearest_name(name, names);
     return "'" + arguments[0] + "' has no option '" + name + "'" +
            (nearest ? "; '" + *nearest + "' is the nearest" : "") + "\n";

@@ -118,6 +118,8 @@ class WrongCommandLine(CommandTest):
         self.wrong("check", FIG_5, "--rat", "5", mentions="'check' has no option '--rat'; '--rate' is the nearest")
         self.wrong("explain", FIG_5, "--devic=arm.json", mentions="'--device' is the nearest")
         self.wrong("run", FIG_5, "--device", PANTOGRAPH, "--duration", "3", mentions="'run' has no option '--duration'")
+        self.wrong("explain", FIG_5, "-o", "solid.txt", mentions="'explain' has no option '-o'")
+        self.wrong("check", FIG_5, "-rate", "5", mentions="'check' has no option '-rate'; '--rate' is the nearest")
         for flag in ("--no-advice=true", "--no-advice="):
             self.wrong("check", FIG_5, flag, mentions="'--no-advice' takes no value")
         self.wrong("--rate", "1000", "check", FIG_5,

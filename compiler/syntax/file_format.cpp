@@ -7,16 +7,23 @@ namespace {
 
 constexpr std::string_view network_key = "dashpot";
 constexpr std::string_view device_key = "dashpot_device";
+constexpr std::string_view certificate_key = "dashpot_certificate";
 
-// True where the other kind's key stands alone.
+const char* words_of(FileKind kind) { return kind == FileKind::network ? "network file" : "device file"; }
+
+// True where another kind's key stands alone.
 bool is_other_kind(FileKind kind, const ObjectReader& reader, Diagnostics& diagnostics) {
   const JsonMember* network = reader.find(network_key);
   const JsonMember* device = reader.find(device_key);
+  const JsonMember* certificate = reader.find(certificate_key);
   if (kind == FileKind::network && network == nullptr && device != nullptr)
     diagnostics.report<DiagnosticCode::device_instead_of_network>(device->key_span);
   else if (kind == FileKind::device && device == nullptr && network != nullptr)
     diagnostics.report<DiagnosticCode::network_instead_of_device>(network->key_span);
-  else return false;
+  else if (network == nullptr && device == nullptr && certificate != nullptr) {
+    diagnostics.report<DiagnosticCode::certificate_instead_of_file>(certificate->key_span, words_of(kind));
+    diagnostics.note<DiagnosticCode::verify_takes_it>({});
+  } else return false;
   return true;
 }
 
@@ -25,7 +32,7 @@ bool is_other_kind(FileKind kind, const ObjectReader& reader, Diagnostics& diagn
 bool is_format_1(FileKind kind, const JsonValue& root, Diagnostics& diagnostics) {
   const bool is_network = kind == FileKind::network;
   if (root.kind != JsonValue::Kind::object) {
-    report_wrong_type(is_network ? "network file" : "device file", root, "an object", diagnostics);
+    report_wrong_type(words_of(kind), root, "an object", diagnostics);
     return false;
   }
   const ObjectReader reader(root, is_network ? "the network file" : "the device file", diagnostics);

@@ -216,6 +216,9 @@ class RefusedInput(CommandTest):
         """Fails if network and device files can be swapped unnoticed."""
         self.refused("explain", PANTOGRAPH, code="device-instead-of-network")
         self.refused("check", FIG_5, "--device", FIG_5, code="network-instead-of-device")
+        two_axes = self.refused("device", SOURCE / "runtime/devices/pantograph_2dof.json", "--target", "c99",
+                                code="device-of-several-axes")
+        self.assertIn("'report'", two_axes.stderr)
         self.dashpot("compile", FIG_5, "-o", ".", "--certificate", "proof.json")
         done = self.refused("check", "proof.json", code="certificate-instead-of-file")
         self.assertEqual(codes(done.stderr), ["certificate-instead-of-file"])

@@ -58,9 +58,17 @@ std::string entries(const std::vector<OptionWords>& options) {
   return text;
 }
 
-constexpr const char* exit_status =
-    ".TP\n0\nDone.\n.TP\n1\nAn input is refused, and nothing is written.\n.TP\n2\nThe command line is wrong.\n"
-    ".TP\n3\nA defect in dashpot.\n";
+std::string exit_status(const std::string& command) {
+  const char* const after_a_run =
+      command == "run"
+          ? "Or the run was not sound: a fault ended it, or the device did not confirm the safe command, or "
+            "the log could not be written.\n"
+          : "";
+  return fmt::format(
+      ".TP\n0\nDone.\n.TP\n1\nAn input is refused, and nothing is written.\n{}.TP\n2\nThe command line is wrong.\n"
+      ".TP\n3\nA defect in dashpot.\n",
+      after_a_run);
+}
 
 }  // namespace
 
@@ -87,7 +95,7 @@ std::string manual_page(const std::vector<CommandWords>& commands, const std::st
               ? ""
               : section("NOTES",
                         ".nf\n" + roff(command.footer.substr(command.footer.find_first_not_of('\n'))) + "\n.fi\n")) +
-         section("EXIT STATUS", exit_status) + section("SEE ALSO", others + "\n");
+         section("EXIT STATUS", exit_status(name)) + section("SEE ALSO", others + "\n");
 }
 
 }  // namespace dashpot::compiler

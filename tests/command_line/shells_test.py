@@ -144,6 +144,11 @@ class Manual(CommandTest):
         self.assertIn("there is no command 'complie'; 'compile' is the nearest",
                       self.dashpot("manual", "complie", status=COMMAND_LINE_WRONG).stderr)
 
+    def test_the_status_of_a_run(self):
+        """Fails if the page says that nothing was written where a run ended in a fault and its log is there."""
+        self.assertIn("a fault ended it", self.shown("run"))
+        self.assertNotIn("a fault ended it", self.shown("fit"))
+
 
 if __name__ == "__main__":
     unittest.main()

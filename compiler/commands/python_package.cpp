@@ -168,11 +168,10 @@ Fields described(const Compilation& c, std::initializer_list<const char*> names)
 
 std::optional<std::string> library_of(const std::vector<OutputFile>& sources, Diagnostics& diagnostics) {
   const TemporaryFolder folder;
-  if (!has_sources(folder, sources, diagnostics)) return std::nullopt;
-  if (makes_library(words_of_compiler(environment_or("CC", "cc")), folder, "law.c", "law.so", diagnostics))
-    return contents_of(folder.path() / "law.so");
-  diagnostics.note<DiagnosticCode::c_compiler_remedy>({});
-  return std::nullopt;
+  if (!has_sources(folder, sources, diagnostics) ||
+      !makes_library(words_of_compiler(environment_or("CC", "cc")), folder, "law.c", "law.so", diagnostics))
+    return std::nullopt;
+  return contents_of(folder.path() / "law.so");
 }
 
 }  // namespace

@@ -100,6 +100,9 @@ bool makes_library(std::vector<std::string> words, const TemporaryFolder& folder
       status == program_not_found ? reason_not_to_start(words.front())
       : status == 0               ? "it ends without an error and without a library"
                                   : contents_of(log));
+  if (fs::path(source).extension() == ".c")
+    diagnostics.note<DiagnosticCode::compiler_remedy>({}, "C", "gcc or clang", "CC", "cc");
+  else diagnostics.note<DiagnosticCode::compiler_remedy>({}, "C++", "g++ or clang++", "CXX", "c++");
   return false;
 }
 

@@ -460,6 +460,7 @@ class Units(unittest.TestCase):
             told = ran(*command, status=1, env={**os.environ, "CC": "no-such-compiler"})
             self.assertIn("'no-such-compiler' does not compile the emitted code: cannot be started "
                           "[system-compiler-failed]", told)
+            self.assertIn("CC names another than cc", told)
             self.assertIn("[system-compiler-failed]", ran(*command, status=1, env={**os.environ, "CC": "false"}))
             told = ran(*command, status=1, env={**os.environ, "CC": f"{CC} -m32"})
             self.assertIn("cannot be started; one program's name is expected, without options", told)

@@ -222,6 +222,7 @@ class Run(unittest.TestCase):
                              "--fast", "--log", self.log, environment={"CXX": compiler})
             self.assertEqual(result.returncode, 1)
             self.assertIn("[system-compiler-failed]", result.stderr)
+            self.assertIn("CXX names another than c++", result.stderr)
             self.assertFalse(os.path.exists(self.log))
 
     def test_temporary_folder_that_cannot_be_used(self):

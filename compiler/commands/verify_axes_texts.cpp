@@ -67,8 +67,8 @@ std::optional<std::string> verify_axes_texts(const SourceFile& certificate_file,
     compare_certificates(certificate_file, files.keep("certificate written again", std::move(again)), diagnostics);
   }
   if (diagnostics.has_errors()) {
-    tell_of_another_compile(header, compiled->has_device ? compiled->device.name : "ideal", 1 / compiled->rate,
-                            diagnostics);
+    tell_of_another_compile(header, compiled->network.name, compiled->has_device ? compiled->device.name : "ideal",
+                            1 / compiled->rate, diagnostics);
     return std::nullopt;
   }
   const AxesCertificate& proved = compiled->certificate;

@@ -94,7 +94,8 @@ class TextsVerification {
 
   void tell_of_another_compile(const SourceFile& header) const {
     if (!compiled_) return;
-    compiler::tell_of_another_compile(header, device_ ? device_->name : "ideal", 1 / compiled_->rate, diagnostics_);
+    compiler::tell_of_another_compile(header, network_->name, device_ ? device_->name : "ideal", 1 / compiled_->rate,
+                                      diagnostics_);
   }
 
   const Network& network() const { return *network_; }

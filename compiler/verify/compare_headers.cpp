@@ -51,6 +51,15 @@ std::string excerpt_at(std::string_view text, std::size_t at) {
   return excerpt(text.substr(start, std::min(text.find('\n', at), text.size()) - start));
 }
 
+// What its class is called, of many points with '_batch' behind the network's name; empty where there is none.
+std::string class_named_in(std::string_view header) {
+  constexpr std::string_view before = "\nclass ";
+  const std::size_t at = header.find(before);
+  if (at == header.npos) return "";
+  const std::size_t begin = at + before.size();
+  return std::string(header.substr(begin, header.find(' ', begin) - begin));
+}
+
 // The name in `certified_for`; empty where there is none.
 std::string device_named_in(std::string_view header) {
   constexpr std::string_view before = "const char* device = \"";
@@ -83,8 +92,11 @@ void compare_headers(const std::vector<std::string>& written, const SourceFile& 
   if (expected_there) diagnostics.note<DiagnosticCode::code_expected>({}, *expected_there);
 }
 
-void tell_of_another_compile(const SourceFile& header, const std::string& device, double sample_period,
-                             Diagnostics& diagnostics) {
+void tell_of_another_compile(const SourceFile& header, const std::string& network, const std::string& device,
+                             double sample_period, Diagnostics& diagnostics) {
+  const std::string told_class = class_named_in(header.text());
+  if (!told_class.empty() && told_class != network && told_class != network + "_batch")
+    diagnostics.note<DiagnosticCode::of_another_network>({}, excerpt(told_class), network);
   const std::optional<HeaderConstants> constants = header_constants(header.text());
   if (!constants) return;
   const std::string told_device = device_named_in(header.text());

@@ -564,6 +564,11 @@ class Verify(CommandTest):
         told = self.refused("verify", "certificate.json", "other.hpp", code="certificate-disagrees").stderr
         self.assertIn(apart, told)
         self.assertNotIn(apart, self.refused("verify", "wrong.json", "header.hpp", code="unknown-constant").stderr)
+        self.assertNotIn("the header is of network", told)
+        other, _ = self.emitted([PAPER / "kelvin.json"], "kelvin")
+        self.write("other.hpp", other)
+        self.assertIn("the header is of network 'kelvin', the certificate of network 'second_order_maxwell'",
+                      self.refused("verify", "certificate.json", "other.hpp", code="certificate-disagrees").stderr)
         self.write("shorter.hpp", re.sub(r".*scalar static_stiffness = .*\n", "", header))
         self.refused("verify", "certificate.json", "shorter.hpp", code="constant-missing")
         told = json.loads(certificate)

@@ -239,7 +239,12 @@ void report_findings(const Fit& fit, const std::vector<Recording>& recordings, D
       case Kind::unstable_left_out:
         diagnostics.report<DiagnosticCode::fit_unstable_left_out>({}, found.name, n[2], n[0], n[1]);
         break;
-      case Kind::few_rows: diagnostics.report<DiagnosticCode::fit_few_rows>({}, n[0], count(n[1])); break;
+      case Kind::few_rows: {
+        const bool is_spectrum = recordings.front().kind == RecordingKind::frequency;  // a storage and a loss each row
+        diagnostics.report<DiagnosticCode::fit_few_rows>({}, counted(count(n[0]) / (is_spectrum ? 2 : 1), "row"),
+                                                         counted(count(n[1]), "parameter"));
+        break;
+      }
       case Kind::in_motion:
         diagnostics.report<DiagnosticCode::fit_in_motion>({}, found.name);
         diagnostics.note<DiagnosticCode::fit_start_remedy>({});

@@ -738,6 +738,11 @@ int main() {
             self.assertEqual("[fit-no-intervals]" in self.fit("few.csv").stderr, not is_known)
             for element in told["elements"]: self.assertEqual(element["interval"] is not None, is_known)
 
+    def test_a_few_rows_of_a_spectrum(self):
+        """Fails if storage and loss of a row are told as two rows."""
+        self.write("few.csv", "frequency [Hz],storage [N/m],loss [N/m]\n0.1,10,0.2\n1,11,1\n10,20,5\n")
+        self.assertIn("warning: 3 rows for 3 parameters do not decide", self.fit("few.csv").stderr)
+
     def test_a_surface_that_is_not_left(self):
         """Fails if rows are left out that carry a force, and R² alone is reported; or if rows without force are
         blamed."""

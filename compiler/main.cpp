@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -623,6 +624,7 @@ ExitStatus answer(const CLI::App& app, const CLI::ParseError& error, bool in_jso
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failed write, which is told
   CLI::App app("Compiles networks of springs, dampers and slips into update laws for haptic devices", "dashpot");
   app.option_defaults()->disable_flag_override();  // --batch=7 is a mistake
   app.set_version_flag("--version", version_text());

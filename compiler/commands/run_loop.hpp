@@ -32,9 +32,9 @@ auto run_on(Port& device, Model& model, Estimator& estimator, LoopOptions option
             const std::string& log_name, Diagnostics& diagnostics) {
   servo_loop<Model, Port, Estimator, Clock>* const kind = nullptr;
   using Summary = decltype(kind->run());
-  // Who reads along may leave, and a file may reach its limit: the device is driven to the end, and left safe. Beyond
-  // the loop too, for the log is closed and the summary told after it.
-  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  // Who reads along may leave: the device is driven to the end, and left safe. Beyond the loop too, for the log is
+  // closed and the summary told after it.
+  std::signal(SIGPIPE, SIG_IGN);
   const auto close = [](std::FILE* file) { std::fclose(file); };
   std::error_code unreported;  // a log whose folder cannot be made cannot be opened, which is
   std::filesystem::create_directories(std::filesystem::path(log_name).parent_path(), unreported);

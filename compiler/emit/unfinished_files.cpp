@@ -9,7 +9,7 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr int ending_signals[] = {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM, SIGXFSZ};
+constexpr int ending_signals[] = {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM};
 
 std::atomic<const UnfinishedFiles*> unfinished{nullptr};  // whole before it is published
 

@@ -2,6 +2,7 @@
 import json
 import os
 import re
+import resource
 import signal
 import subprocess
 import time
@@ -361,6 +362,19 @@ class Files(CommandTest):
                      code="cannot-write-file")
         self.assertEqual((self.folder / "out/kelvin.hpp").read_bytes(), before)
         self.assertEqual(self.files("out"), ["kelvin.hpp"])
+
+    def test_a_file_that_may_not_grow(self):
+        """Fails if a limit on the size of files ends the command without a word, or leaves a part of a file."""
+        def narrow():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1024, 1024))
+
+        for arguments in (["compile", "-o", "out"], ["compile", "--target", "python", "-o", "out"],
+                          ["report", "-o", "out/page.html"]):
+            done = subprocess.run([DASHPOT, *arguments, "kelvin.json"], cwd=self.folder, preexec_fn=narrow,
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, INPUT_REFUSED, done.stderr)
+            self.assertIn("File too large [cannot-write-file]", done.stderr)
+            self.assertFalse((self.folder / "out").exists())
 
     def test_an_interrupt_leaves_nothing_unfinished(self):
         """Fails if a file that nobody asked for stays behind where writing is interrupted."""

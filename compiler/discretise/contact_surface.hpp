@@ -1,52 +1,54 @@
 // The surface that a tool touches and leaves (theory, section 5, "Contact"), written into a law: where the surface goes
-// in a sample, and when the command lets go.
+// in a sample, and when the command ends.
 //
-// The state is the surface's displacement s from where it lies unloaded. The tool would have it change by Δ = u − at −
-// s₋. With f(Δ) ≥ 0 it goes along; else it goes where f = 0, and a gap opens.
+// The state is the surface's displacement s from where it lies unloaded, s₋ the one of the sample before. Stuck to the
+// tool, it would change by Δ = u − at − s₋. If the force f(Δ) ≥ 0, it does; else it goes to where f = 0, and a gap
+// opens.
 #pragma once
 
 #include "discretise/law_writer.hpp"
 
 namespace dashpot::compiler {
 
-// The brake's b of what is behind slips.
+// The part of the brake's b that belongs to the elements behind slips.
 struct BrakeBehindSlips {
-  ExpressionId changing = nothing;      // nothing where it does not change
-  ExpressionId compensation = nothing;  // β, whose β v̂ the motor takes back; nothing without
-  Real steady = 0;                      // of what does not [N·s/m]
-  Real largest = 0;                     // of both together [N·s/m]
+  ExpressionId changing = nothing;      // the part that changes; `nothing` if none does
+  ExpressionId compensation = nothing;  // β: the motor takes β v̂ back; `nothing` if there is none
+  Real steady = 0;                      // the part that does not change [N·s/m]
+  Real largest = 0;                     // the largest sum of both [N·s/m]
 };
 
-// While the tool touches.
+// The command while the tool touches.
 struct CommandInTouch {
-  ExpressionId felt;                      // by the tool [N]
-  ExpressionId motor;                     // m [N]
-  ExpressionId changing_brake = nothing;  // of b, what changes and what does not [N·s/m]
-  Real steady_brake = 0;
+  ExpressionId felt;                      // force that the tool feels [N]
+  ExpressionId motor;                     // m, force of the motor [N]
+  ExpressionId changing_brake = nothing;  // the part of b that changes [N·s/m]
+  Real steady_brake = 0;                  // the part that does not [N·s/m]
 };
 
 class ContactSurface {
  public:
-  // `encoder_step`: how far the gap may open before the command lets go [m].
+  // `encoder_step`: the largest gap at which the command goes on [m].
   ContactSurface(LawWriter& writer, double at, double encoder_step);
 
   void declare();
 
   VariableId before() const { return surface_; }     // s₋
   VariableId approach() const { return approach_; }  // Δ
-  VariableId depth() const { return depth_; }        // of the tool behind the unloaded surface
+  VariableId depth() const { return depth_; }        // how far the tool is beyond the unloaded surface
   VariableId change() const { return change_; }      // Δs
   VariableId now() const { return now_; }            // s
   VariableId released() const { return released_; }  // above 0 where the tool is free
 
   void write_approach();
-  // For p = g δ + π: the surface's change. `held` is π, no variable for 0; the second is given −1/g.
+  // The surface's change, if what is behind it has the force g Δs + π. `held` is π, no variable for 0; the second is
+  // given −1/g.
   void write_change(const Real& stiffness, VariableId held);
   void write_change(ExpressionId recovery_compliance, VariableId held);
-  // Where it is, its change being known.
+  // The surface's new place, after write_change().
   void write_surface();
   // The brake's b and the motor's part while the tool touches; both 0 when it is free. `opposing` is f′ = f − b∞ Δs/h,
-  // also without what slips leave to the brake.
+  // less the part that the brake makes behind slips.
   void write_command(VariableId opposing, const Real& feedthrough_damping, const BrakeBehindSlips& slips);
   void write_command(VariableId opposing, const CommandInTouch& touching);
 

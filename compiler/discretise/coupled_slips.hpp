@@ -14,11 +14,11 @@ namespace dashpot::compiler {
 
 class CoupledSlips {
  public:
-  // The component outlives this.
+  // The component must outlive this object.
   CoupledSlips(LawWriter& writer, const Network& network, const Real& sample_period, const NormalTree& component);
 
-  // The states of this block, one of the component's, are written by others; π is set before the output is written, no
-  // variable for 0.
+  // The states of this block of the component are written by somebody else. Its held force π is set before the output
+  // is written; no variable for 0.
   void keep_elsewhere(const NormalTree& block);
   void set_held_elsewhere(VariableId held) { held_elsewhere_ = held; }
 
@@ -34,7 +34,7 @@ class CoupledSlips {
   void write_update();
   ExpressionId energy();  // nothing without springs
 
-  // Of a slip by its elements, after declare(): 0 where it holds. Only with follow_signs().
+  // The sign of the slip with these elements, after declare(): 0 where it holds. Only with follow_signs().
   VariableId sign_of(const std::vector<std::size_t>& slip) const;
 
  private:

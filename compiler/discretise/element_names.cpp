@@ -16,7 +16,7 @@ bool is_called(const Named& named, const std::string& name) {
          std::find(named.element_names.begin(), named.element_names.end(), name) != named.element_names.end();
 }
 
-// Members that some laws have, whatever their elements are called.
+// Members of the emitted class whose names do not come from elements; only some laws have them.
 constexpr std::string_view members_of_some[] = {"threshold", "total", "sampled_", "kept_share", "clear"};
 
 // States end in an underscore in the emitted class.

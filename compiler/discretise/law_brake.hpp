@@ -1,4 +1,4 @@
-// The brake's command, and what it leaves to the motor: the sums over all parts with slips.
+// The brake's command, and the force that is left to the motor: sums over all parts with slips.
 #pragma once
 
 #include "discretise/contact_surface.hpp"
@@ -8,7 +8,7 @@ namespace dashpot::compiler {
 
 class LawBrake {
  public:
-  // All outlive this. `linear_damping`: b of what reaches ground without a slip [N·s/m].
+  // All must outlive this object. `linear_damping`: b of the part that reaches ground without a slip [N·s/m].
   LawBrake(LawWriter& writer, const SlipDecomposition& settings, const SlipParts& parts, double linear_damping,
            const Real& sample_period)
       : writer_(writer),
@@ -17,14 +17,14 @@ class LawBrake {
         linear_damping_(linear_damping),
         sample_period_(sample_period) {}
 
-  // f′ = f − Σ x Δu/h, x of every part's regime
+  // f′ = f − Σ x Δu/h, where x is the damping that the brake makes of a part now
   ExpressionId without_feedthrough(ExpressionId force, VariableId position, VariableId change);
-  // m = f′ − β v̂, and what a coil on its way lacks
+  // m = f′ − β v̂, plus the damping force that a lagging coil does not make yet
   ExpressionId left_to_motor(ExpressionId force);
-  // b of a tool that is always in touch.
+  // Writes b for a tool that is always in touch.
   void write_command();
   BrakeBehindSlips behind_contact() const;
-  // `released`: of a contact, above 0 where the tool is free; else no variable.
+  // `released`: with a contact, above 0 where the tool is free; else no variable.
   void write_update(VariableId released);
 
  private:

@@ -37,8 +37,8 @@ LawWriter::LawWriter(UpdateLaw& law, motion port_motion)
       force_(port_motion == motion::rotation ? "N·m" : "N") {}
 
 std::string LawWriter::unique(const std::string& name) {
-  std::string candidate = without_end(name);                 // as joined() will have it
-  if (candidate != name) candidate = legal_name(candidate);  // of "NULL_" and "long_" words would be left
+  std::string candidate = without_end(name);                 // joined() adds one underscore itself
+  if (candidate != name) candidate = legal_name(candidate);  // "NULL_" and "long_" would leave reserved words
   for (int i = 2; !taken_.insert(folded(candidate)).second; ++i) candidate = joined(name, std::to_string(i));
   return candidate;
 }

@@ -20,18 +20,17 @@ std::string joined(const std::string& first, const std::string& second);
 // The nearest number of the law's scalar type; zero below smallest_constant().
 double rounded(const Real& value, ScalarType scalar);
 
-// One emitted name a place, for vectors: "B1_K1" gives "B1_K1_force", …
+// For vectors, one emitted name for each place: "B1_K1" gives "B1_K1_force", …
 using Names = std::vector<std::string>;
 
-// The name of a vector: what it holds and, where several vectors hold the same, whose it is. The vector is named by
-// both, its places by their own names and `what`.
+// The name of a vector: what it holds and, if several vectors hold the same quantity, whose it is. The vector is named
+// by both, its places by their own names and `what`.
 struct VectorName {
   std::string whose;
   std::string what;
 };
 
-// Where a constant comes from: its role in the law's equations and, of what belongs to a part of the network, that
-// part.
+// Where a constant comes from: its role in the law's equations and, if it belongs to a part of the network, that part.
 struct Derivation {
   Derivation(ConstantRole role_of_it) : role(role_of_it) {}
   Derivation(ConstantRole role_of_it, Subject one) : role(role_of_it), of{std::move(one)} {}
@@ -55,7 +54,7 @@ class LawWriter {
   std::string damping() const { return length_ == "m" ? "N·s/m" : "N·m·s/rad"; }
   std::string compliance() const { return length_ + "/" + force_; }
 
-  // The name itself, or with a number behind it where a name of the law, ignoring case, is that already.
+  // The name itself, or with a number behind it if the law has that name already, ignoring case.
   std::string unique(const std::string& name);
 
   VariableId scalar(const std::string& name, const std::string& unit, const std::string& meaning, Role role);
@@ -82,7 +81,7 @@ class LawWriter {
     return node(Operation::relax, {decay, force, drive});
   }
   ExpressionId sum(VariableId vector) { return law_.expressions.add({Operation::sum, {}, vector}); }
-  // The constant of that name, made where there is none yet.
+  // The constant of that name; it is made if there is none yet.
   ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, const Real& value,
                         Derivation from = ConstantRole::brake_choice);
   ExpressionId constants(const VectorName& name, const std::string& unit, const std::string& meaning,
@@ -94,10 +93,10 @@ class LawWriter {
   ExpressionId pick(const std::string& name, const std::string& unit, const std::string& meaning,
                     const std::vector<Real>& values, ExpressionId place, Derivation from = ConstantRole::brake_choice);
 
-  // The variable that an expression is, or `nothing` where it is more than that.
+  // The variable that an expression reads and nothing else, or `nothing` if it is more than that.
   VariableId reads(ExpressionId expression) const;
 
-  // The state that carries a local of the output, or an input, over to the update.
+  // The state in which a local of the output, or an input, is kept for the update.
   VariableId kept(VariableId local);
 
   // sum + value, where either may be `nothing`.
@@ -116,7 +115,7 @@ class LawWriter {
   std::string length_, force_;
   std::size_t last_bank_ = port_bank;
   std::set<std::string> taken_ = {"relaxed", "velocity", "no",    "step",
-                                  "last",    "sampled",  "steady"};  // begin names of the law's own
+                                  "last",    "sampled",  "steady"};  // beginnings of the law's own names
 };
 
 }  // namespace dashpot::compiler

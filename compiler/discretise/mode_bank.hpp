@@ -14,8 +14,8 @@ namespace dashpot::compiler {
 
 class ModeBank {
  public:
-  // `names`: one emitted name a mode. `prefix` goes before the names of the bank's own variables; empty for the modes
-  // at the port. `of`: the block or the part that the modes are of; nothing at the port.
+  // `names`: one emitted name for each mode. `prefix` goes before the names of the bank's own variables; empty for the
+  // modes at the port. `of`: the block or the part that the modes belong to; empty at the port.
   ModeBank(LawWriter& writer, const std::vector<Mode>& modes, StateInput input, const Real& sample_period, Names names,
            std::string prefix, std::vector<Subject> of = {});
 
@@ -23,7 +23,7 @@ class ModeBank {
   bool follows_position() const;  // some mode is driven by displacement
   bool follows_velocity() const;
   Real step_stiffness() const;   // Σ c_i: force for a displacement within the sample [N/m]
-  Real velocity_gain() const;    // h Σ c_i of what the estimate drives [N·s/m]
+  Real velocity_gain() const;    // h Σ c_i of the modes that the estimate drives [N·s/m]
   double smallest_loss() const;  // min (1 − a); 1 for an empty bank
 
   void declare();                                          // to be called when the law's mode form is settled
@@ -41,7 +41,7 @@ class ModeBank {
   ExpressionId per_mode(ConstantRole role, const char* name, const std::string& unit, const char* meaning,
                         ValueOf value_of);
   VariableId state(const char* name, const char* meaning, Role role = Role::state);
-  // Not "force" alone: that is the law's own.
+  // "mode", since "force" alone is a name of the law's own.
   std::string vector_name() const { return prefix_.empty() ? "mode" : prefix_; }
 
   LawWriter& writer_;

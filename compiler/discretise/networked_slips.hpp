@@ -13,7 +13,7 @@
 
 namespace dashpot::compiler {
 
-// What reaches from the surface of a contact to the ground beside the slips; its states are written by others.
+// The linear part between the surface of a contact and the ground, beside the slips. Its states are written elsewhere.
 struct BesideSlips {
   Real stiffness;                 // g [N/m]
   VariableId held = no_variable;  // π [N]
@@ -30,13 +30,13 @@ class NetworkedSlips {
 
   // The part's force, from the tool's displacement in this sample.
   ExpressionId write_output(VariableId change);
-  // The same behind a contact: `change` is what the surface's would be if it stuck to the tool, `surface_change`
-  // becomes it.
+  // The same behind a contact: `change` is the surface's change if it stuck to the tool, `surface_change` is set to the
+  // actual one.
   ExpressionId write_push(VariableId change, VariableId surface_change, const BesideSlips& beside);
   void write_update();
   ExpressionId energy();  // nothing without springs
 
-  // Of a slip by its elements, after declare(): 0 where it holds.
+  // The sign of the slip with these elements, after declare(): 0 where it holds.
   VariableId sign_of(const std::vector<std::size_t>& slip) const;
 
  private:
@@ -64,7 +64,7 @@ class NetworkedSlips {
   ExpressionId held_at(std::size_t terminal);
   VariableId write_held(std::size_t terminal, VariableId beside);
   ExpressionId write_step(VariableId change);
-  // Of a terminal in this sample; nothing for the ground.
+  // How far a terminal moves in this sample; nothing for the ground.
   ExpressionId movement(std::size_t terminal);
   ExpressionId elongation(const Tie& tie);
   ExpressionId drive(const NetworkMode& mode);

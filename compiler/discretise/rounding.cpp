@@ -11,9 +11,10 @@ double largest_finite(ScalarType scalar) {
   return scalar == ScalarType::float64 ? std::numeric_limits<double>::max() : double(std::numeric_limits<float>::max());
 }
 
-// An error decays at the rate α, so that 1/α equal ones add up. Product form: the roundings of aF, of the sum and of
-// `a` itself are each relative to F. Delta form: only the sum's is; those of αF, α, the gain and its product are
-// relative to what these add. Compensated form: the sum's error is carried along to second order.
+// An error of one sample decays by the share α a sample, so that equal errors add up to 1/α of them. Product form: the
+// errors of aF, of the sum and of `a` itself are each relative to F. Delta form: only the sum's error is; those of αF,
+// α, the gain and its product are relative to the increment. Compensated form: the sum's error is carried along, so
+// that only its square is left.
 double error_bound(ModeForm form, double loss, double roundoff) {
   switch (form) {
     case ModeForm::product: return 3 * roundoff / loss + 2 * roundoff;

@@ -1,4 +1,4 @@
-// How rounding spoils a mode's force, and the form of the update that keeps it within bounds.
+// How much rounding changes a mode's force, and the form of the update that keeps this within bounds.
 #pragma once
 
 #include "law/update_law.hpp"

@@ -12,7 +12,7 @@ inline ExpressionId held(LawWriter& writer) { return writer.constant("held", "1"
 
 class SlideMemory {
  public:
-  // `hysteresis`: above 0 [m]. `make(what, unit, meaning, role)` gives a variable. The writer outlives this.
+  // `hysteresis`: above 0 [m]. `make(what, unit, meaning, role)` gives a variable. The writer must outlive this object.
   template <class Make>
   SlideMemory(LawWriter& writer, const Real& hysteresis, Make make)
       : writer_(writer),
@@ -22,7 +22,7 @@ class SlideMemory {
         slides_now_(make("slides_now", "1", "", Role::local)),
         at_now_(make("slides_at", writer.length(), "", Role::local)) {}
 
-  // `slides`: above zero where the slip gives way. Returns the same for the command.
+  // `slides`: above zero where the slip gives way. Returns the same as the command is to see it.
   ExpressionId write_output(ExpressionId slides, VariableId position);
   void write_update();
 

@@ -1,15 +1,17 @@
-// What slips ask of the brake as they hold and give way, and what the motor takes back of it (theory, section 5,
-// "Regimes"). One rule for all: a place is one slip of a group of alike, or all the slips that are solved together.
+// The brake's damping b behind slips, which changes as they hold and give way, and the damping β that the motor takes
+// back of it (theory, section 5, "Regimes"). A place is one slip of a group of alike slips, or all the slips that are
+// solved together; the same rule holds for both.
 //
-//   Which slips give way is a regime, for the command with a hysteresis over the encoder.
-//   b = b_least + (b_most − b_least) w². Without a coil that lags w is that of the regime at once. Of a law that
-//   compensates nothing it follows as the coil can, w ← w + κ (w_regime − w), and the motor may make up the rest.
-//   Of the ramped law it goes by small steps, w ← w + clamp(κ (w_regime − w), ±ρ), κ = 1 of a coil without a lag.
-//   What the coil has reached for certain, q, is behind: q ← min(q, w), then q ← q + κ (w − q), of any coil that makes
-//   up a share κ of √b in a sample or more. With an estimate that reaches N + n samples back the motor takes back
-//       β = β_most ((q − (N + n) ρ)⁺)²,
-//   for q rises by no more than ρ a sample, so that in none of the samples that the estimate knows of it was less than
-//   q − (N + n) ρ. Over several places excesses add up, and √b of the sum is reached as that of each (Minkowski).
+//   The regime says which slips give way. The command sees it with a hysteresis of some encoder steps.
+//   b = b_least + (b_most − b_least) way², where way is 0 in the regime with the least b and 1 in that with the most.
+//   If the coil does not lag, the way is that of the regime at once. If it lags and the motor takes nothing back,
+//   way ← way + κ (way_regime − way), where κ is the share of √b that the coil makes up in a sample; the motor may add
+//   what is missing. In the ramped law way ← way + clamp(κ (way_regime − way), ±ρ), with κ = 1 if the coil does not
+//   lag. The coil has surely reached: reached ← min(reached, way), then reached ← reached + κ (way − reached). If the
+//   velocity estimate depends on N + n samples, the motor takes back
+//       β = β_most ((reached − (N + n) ρ)⁺)².
+//   In a sample `reached` rises by ρ at most. So in none of the samples in the estimate was it less than
+//   reached − (N + n) ρ. Over several places the dampings add up, and so do their bounds (Minkowski's inequality).
 #pragma once
 
 #include <string>
@@ -23,12 +25,12 @@ namespace dashpot::compiler {
 
 class SlipBrake {
  public:
-  // `settings`: hysteresis, memory, ramp and coil. Outlives this.
+  // `settings`: hysteresis, memory, ramp and coil; must outlive this object.
   SlipBrake(LawWriter& writer, const SlipDecomposition& settings) : writer_(writer), settings_(settings) {}
 
-  // `split`: nothing for the brake where it is none. Outlives this.
+  // `split`: null if the part leaves nothing to the brake; must outlive this object.
   void add(const ComponentSplit* split);
-  // Places of one shape share their code: the same of their shares change.
+  // Places of one shape share their code: in all of them the same quantities change.
   struct Shape {
     bool changes = false, is_ramped = false, begins_with_least = false;
 
@@ -37,24 +39,24 @@ class SlipBrake {
   static Shape shape(const ComponentSplit* split);
 
   bool takes_part() const;
-  bool changes() const;  // b or x with the regime, so that it must know which slips give way
+  bool changes() const;  // whether b or x differs between regimes, so that it must know which slips give way
   const std::vector<SlipElements>& slips() const;
 
-  // One name a place, or where there is one place a name for each of its slips.
+  // `slips`: one name for each place or, if there is only one place, for each of its slips.
   void declare(const std::string& prefix, const Names& places, const Names& slips);
-  // `slides`: above zero where a slip gives way, one a slip; `position`: of the tool.
+  // `slides`: one for each slip, above zero where it gives way; `position`: that of the tool.
   void write_output(const std::vector<ExpressionId>& slides, VariableId position);
-  // f′ from f, of a single place: what is taken is x Δu/h.
+  // f′ = f − x Δu/h, for a single place.
   ExpressionId without_feedthrough(ExpressionId force, VariableId change, const Real& sample_period);
-  // `released`: of a contact, above 0 while the tool is free, which resets the ramp; else no variable.
+  // `released`: with a contact, above 0 while the tool is free, which resets the ramp; else no variable.
   void write_update(VariableId released);
 
-  VariableId changing_damping() const { return damping_; }   // `nothing` where it does not change
-  VariableId compensation() const { return compensation_; }  // β of a ramp, `nothing` for none
-  VariableId shortfall() const { return shortfall_; }        // of b where the coil is on its way, `nothing` for none
-  Real steady_compensation() const;                          // β of places where nothing switches [N·s/m]
-  Real steady_damping() const;                               // of the places where it does not change [N·s/m]
-  Real least_damping() const;                                // of all
+  VariableId changing_damping() const { return damping_; }   // `nothing` if it does not change
+  VariableId compensation() const { return compensation_; }  // β of a ramp, `nothing` if there is none
+  VariableId shortfall() const { return shortfall_; }        // b that a lagging coil lacks, `nothing` if none
+  Real steady_compensation() const;                          // β of places whose b does not change [N·s/m]
+  Real steady_damping() const;                               // b of places where it does not change [N·s/m]
+  Real least_damping() const;                                // sum over all places [N·s/m]
   Real largest_damping() const;
   Real damping_at_rest() const;
 
@@ -80,14 +82,14 @@ class SlipBrake {
 
   LawWriter& writer_;
   const SlipDecomposition& settings_;
-  std::vector<const ComponentSplit*> splits_;  // one a place
+  std::vector<const ComponentSplit*> splits_;  // one for each place
   std::string prefix_;
   Names places_;
-  std::vector<SlideMemory> memories_;             // one a slip of a place
+  std::vector<SlideMemory> memories_;             // one for each slip of a place
   VariableId way_ = nothing, reached_ = nothing;  // states
   VariableId damping_ = nothing, way_now_ = nothing, reached_now_ = nothing, compensation_ = nothing,
              shortfall_ = nothing;                             // locals
-  ExpressionId regime_ = nothing, regime_of_force_ = nothing;  // the place of a table, or a condition of one slip
+  ExpressionId regime_ = nothing, regime_of_force_ = nothing;  // an index into a table or, with one slip, a condition
 };
 
 }  // namespace dashpot::compiler

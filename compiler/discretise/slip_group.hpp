@@ -1,5 +1,5 @@
 // Components with one slip each and the same shape, written as vectors with one place a component (theory, section 5,
-// closed form): stuck trial minus excess.
+// closed form): the slip's force if it held, less what it cannot hold.
 #pragma once
 
 #include <memory>
@@ -15,46 +15,46 @@ namespace dashpot::compiler {
 
 class SlipGroup {
  public:
-  // `settings` of the brake outlives this.
+  // `settings` of the brake must outlive this object.
   SlipGroup(LawWriter& writer, const Network& network, const Real& sample_period, const SlipDecomposition& settings);
 
-  // True where the component fits those already in: the same rows but for their numbers, and no modes. Components and
-  // what they ask of the brake, nothing where it is none, outlive this.
+  // True if the component fits those already in: it has rows of the same form, and no modes. `split` is null if it
+  // leaves nothing to the brake. Both must outlive this object.
   bool accepts(const NormalTree& component, const ComponentSplit* split) const;
   void add(const NormalTree& component, const ComponentSplit* split);
 
   double smallest_loss() const;
   void declare();  // to be called when the law's mode form is settled
 
-  // The components' share of the force, from the tool's displacement in this sample.
+  // The components' part of the force, from the tool's displacement in this sample.
   ExpressionId write_output(VariableId change, VariableId position);
   void write_update(VariableId sampled_change);
   ExpressionId energy();  // nothing without springs
 
   const SlipBrake& brake() const { return brake_; }
-  ExpressionId changing_damping() const { return damping_; }  // Σ b of what changes; nothing without
-  ExpressionId shortfall() const { return shortfall_; }       // Σ of what b lacks on its way; nothing without
-  ExpressionId compensation() const {
-    return compensation_;
-  }  // Σ β, whose β v̂ is to be taken from the force; nothing without
+  // Sums over the slips; `nothing` if there are none: b that changes, b that lagging coils lack, and β, where β v̂ is to
+  // be taken from the force.
+  ExpressionId changing_damping() const { return damping_; }
+  ExpressionId shortfall() const { return shortfall_; }
+  ExpressionId compensation() const { return compensation_; }
 
  private:
   struct Block {
     Names names;
-    std::vector<LinearForm> forms;      // one a component
+    std::vector<LinearForm> forms;      // one for each component
     std::vector<ElementList> elements;  // the same
     std::unique_ptr<ModeBank> modes;    // of a single component
     VariableId spring_force = nothing;  // F0, of the static stiffness
     bool has_spring = false;
   };
 
-  // What the component opposes to the tool but for what the brake takes over: f' = f − x Δu/h.
+  // The component's force less the part that the brake makes: f′ = f − x Δu/h.
   struct MotorForce {
     Row stuck, sliding;
-    bool differs = false;  // by more than the excess
+    bool differs = false;  // in more than the excess
   };
 
-  // What a row gives: of the component, or of one of its blocks.
+  // What a row computes: a quantity of the component, or of one of its blocks.
   struct Quantity {
     RowOf of;
     std::size_t block = 0;
@@ -71,7 +71,7 @@ class SlipGroup {
   };
 
   SlipResponse response_of(const NormalTree& component) const;
-  // What of a component decides how its code looks: components of one shape share a loop.
+  // Decides how the code of a component looks: components of one shape share a loop.
   enum class Factor { zero, one, minus_one, other };
   struct RowShape {
     std::vector<Factor> factors;

@@ -7,7 +7,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// Of all that is behind a contact, with components as they are computed.
+// All that is behind a contact as one tree, each component as the law computes it.
 NormalTree rendered_whole(const NormalForm& form, const Network& network, const SlipDecomposition& settings) {
   NormalTree whole = whole_tree(form, network);
   if (settings.components.size() != form.components.size()) return whole;

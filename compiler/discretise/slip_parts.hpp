@@ -1,5 +1,5 @@
-// All parts of a law behind slips: components with one slip each, in groups; trees of coupled slips; networks of
-// others; and the brake's command for those that are solved together.
+// All parts of a law behind slips: components with one slip each, in groups; trees of coupled slips; networks of slips
+// that meet in no tree; and the brake's command for slips that are solved together.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace dashpot::compiler {
 
 class SlipParts {
  public:
-  // All outlive this. Behind a contact all slips are solved together.
+  // All must outlive this object. Behind a contact all slips are solved together.
   SlipParts(LawWriter& writer, const Network& network, const Real& sample_period, const NormalForm& form,
             const SlipDecomposition& settings);
 
@@ -37,7 +37,7 @@ class SlipParts {
     std::unique_ptr<SlipBrake> brake;
     CoupledSlips* tree;
     NetworkedSlips* network;
-    std::vector<VariableId> signs;  // none where nothing changes
+    std::vector<VariableId> signs;  // none if nothing changes
   };
   const std::vector<Braked>& braked() const { return braked_; }
 

@@ -38,8 +38,9 @@ void collect(const NormalTree& tree, std::vector<const NormalTree*>& blocks) {
   for (const NormalTree& child : tree.children) collect(child, blocks);
 }
 
-// Balance of forces at the inner nodes and the slip's elongation, for unit inputs Δu, π_1 … π_B, δ_slip in turn.
-// Unknowns: displacements of the inner nodes, the slip's force.
+// The equations of one component: balance of forces at the inner nodes, and the slip's elongation δ_slip. They are
+// solved for a unit of each input in turn: Δu, the held forces π_1 … π_B, δ_slip. Unknowns: displacements of the inner
+// nodes, the slip's force.
 class Equations {
  public:
   Equations(const NormalTree& component, const std::vector<Real>& stiffness) : stiffness_(stiffness) {
@@ -125,7 +126,7 @@ SlipResponse slip_response(const NormalTree& component, const std::vector<Real>&
   const std::vector<const NormalTree*> blocks = blocks_of(component);
   const Equations equations(component, block_stiffness);
   const std::size_t sliding = blocks.size() + 1;
-  // The trial force falls by G for each unit that the slip gives way: δ_slip = r/G.
+  // The trial force falls by G for each unit that the slip gives way, so that it gives way by δ_slip = excess/G.
   const Real per_excess = -1 / equations.slip_force(sliding);
   const auto row = [&](auto value) {
     Row r{value(std::size_t{0}), {}, value(sliding) * per_excess};

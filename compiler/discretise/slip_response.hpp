@@ -10,13 +10,13 @@
 
 namespace dashpot::compiler {
 
-// A linear part with its companion over one sample, p = g δ + π.
+// A linear part over one sample: force p = g δ + π for the elongation δ.
 struct CompanionBlock {
   const NormalTree* block;
   Real stiffness;  // g = k0 + b∞/h + Σ c_i [N/m]
 };
 
-// One quantity as a combination: change·Δu + Σ held[i]·π_i + excess·r. Coefficients that theory makes 0 or ±1 are so.
+// One quantity as a sum: change·Δu + Σ held[i]·π_i + excess·r. Coefficients that are 0 or ±1 in theory are exactly so.
 struct Row {
   Real change;
   std::vector<Real> held;
@@ -28,7 +28,7 @@ struct SlipResponse {
   Real yield_force;
   std::vector<std::size_t> slip_elements;
   Row trial;                    // t: the slip's force if it held
-  Row force;                    // f: what the component opposes to the tool
+  Row force;                    // f: the force with which the component opposes the tool
   std::vector<Row> elongation;  // δ_i of each block
 };
 
@@ -40,7 +40,7 @@ std::vector<const NormalTree*> blocks_of(const NormalTree& component);
 
 Row operator+(Row first, const Row& second);
 Row operator*(const Real& factor, Row row);
-// Coefficients within rounding of 0, 1 and −1, relative to the row's largest, become exact.
+// Sets coefficients to 0, 1 or −1 where they differ from it by rounding only, relative to the row's largest.
 Row snapped(Row row);
 bool same_but_for_excess(const Row& first, const Row& second);
 

@@ -13,7 +13,7 @@ namespace dashpot::compiler {
 
 struct SlipTable {
   std::vector<slip_node<double>> nodes;   // breadth first, the root at 0
-  std::vector<const NormalTree*> blocks;  // by the place of their nodes; into the component
+  std::vector<const NormalTree*> blocks;  // by the place of their nodes; pointers into the component
   std::vector<const NormalTree*> slips;   // the same
 };
 

@@ -139,7 +139,7 @@ int TunableBlocks::add_spring(int stiffness, std::string name, std::optional<Fix
   return static_cast<int>(tables_.springs.size()) - 1;
 }
 
-// k0 and b∞ of the fixed parts, and what tunables add to them.
+// k0 and b∞: those of the fixed parts and what tunables add.
 void TunableBlocks::add_direct(const Network& network, const std::vector<std::size_t>& elements,
                                const LinearForm& fixed, bool is_loose) {
   std::vector<std::size_t> springs, dampers;
@@ -182,7 +182,7 @@ void TunableBlocks::add_fixed(const Network& network, const LinearForm& fixed) {
   }
 }
 
-// One inner node, springs on one side of it and dampers on the other.
+// If the part has one inner node, springs on one side of it and dampers on the other.
 bool TunableBlocks::add_relaxation(const Network& network, const Part& part) {
   if (part.internal.size() != 1) return false;
   const Sides sides = sides_of(network, part);

@@ -14,10 +14,12 @@ class TunableBlocks {
  public:
   TunableBlocks(const Network& network, const Choices& choices, const Real& sample_period, TunableTables& tables);
 
-  // The next block: `elements` of `network`, which joins tool and ground by them. `is_loose`: in series with a slip.
+  // Adds the next block: `elements` of `network`, in which they join tool and ground. `is_loose`: in series with a
+  // slip.
   void add(const Network& network, const std::vector<std::size_t>& elements, bool is_loose);
 
-  // base + Σ of the values of elements of one kind. `named`: all whose values are in it, where `base` has some more.
+  // base + Σ of the values of elements of one kind. `named`: all elements whose values are in it, if `base` holds some
+  // too.
   int number(const Network& network, const std::vector<std::size_t>& elements, NumberSubject of, const Real& base = 0,
              std::vector<std::size_t> named = {});
   // Σ of the values of elements side by side.
@@ -37,13 +39,13 @@ class TunableBlocks {
   Choices choices_;
   Real sample_period_;
   TunableTables& tables_;
-  std::vector<std::size_t> tunable_of_parameter_;  // of one that is no tunable, the next
+  std::vector<std::size_t> tunable_of_parameter_;  // for a parameter that is not tunable, the next tunable
 };
 
 // The branches of `tree` that hold `elements`, laid out between tool and ground on nodes of their own.
 Network laid_out_part(const Network& network, const Tree& tree, const std::vector<std::size_t>& elements);
 
-// Every way to cut through `slips`: the yield force is the least of the sums. One list of elements a way.
+// Every way to cut through `slips`, as a list of the elements cut: the yield force is the least of their sums.
 std::vector<std::vector<std::size_t>> cuts_through(const Tree& tree, const std::vector<std::size_t>& slips);
 
 }  // namespace dashpot::compiler

@@ -12,7 +12,7 @@ namespace {
 
 bool is_slip(const Network& network, std::size_t element) { return is_slip(network.elements[element].law); }
 
-// Linear elements that share nodes which are no ends.
+// Groups of linear elements that share nodes at which no slip ends.
 class Clusters {
  public:
   Clusters(const Network& network, const std::vector<std::size_t>& elements, const std::set<NodeIndex>& ends)

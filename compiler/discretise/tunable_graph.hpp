@@ -1,4 +1,4 @@
-// Slips that meet in no tree, with what is between their ends as one-ports.
+// Slips that meet in no tree, with the linear parts between their ends.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace dashpot::compiler {
 
-// Springs and dampers in parallel or not that join two ends and no third.
+// Springs and dampers that join exactly two ends.
 struct OnePort {
-  NodeIndex from, to;  // from the tool's side to the ground's, where it is next to one of them
+  NodeIndex from, to;  // `from` on the tool's side, if it is next to tool or ground
   std::vector<std::size_t> elements;
 };
 
@@ -20,10 +20,10 @@ struct GraphLink {
 };
 
 struct SlipGraph {
-  std::vector<NodeIndex> ends;  // the inner ones: where slips end, and where other than one-ports meet
+  std::vector<NodeIndex> ends;  // inner ones: where slips end, and where parts with more than two ends meet
   std::vector<GraphLink> links;
   std::vector<OnePort> ties;
-  std::vector<std::size_t> opened;  // elements at inner ends that no slip has: their relaxations mix over several ends
+  std::vector<std::size_t> opened;  // elements at inner ends without a slip: their relaxations mix
 };
 
 // In: a network, those of its elements that are behind slips which meet in no tree. Ensures: every element is in one
@@ -33,7 +33,7 @@ SlipGraph slip_graph(const Network& network, const std::vector<std::size_t>& ele
 // The elements of a one-port between tool and ground, with inner nodes of their own.
 Network laid_out(const Network& network, const OnePort& port);
 
-// True where nothing but slips is beside it at one of its inner ends: then its springs' rest lengths mean nothing.
+// True if at one of its inner ends it meets slips only: the slips can then take up any rest length of its springs.
 bool is_loose(const SlipGraph& graph, const OnePort& tie);
 
 }  // namespace dashpot::compiler

@@ -18,7 +18,7 @@
 namespace dashpot::compiler {
 namespace {
 
-const Real offset_time("0.1");  // [s], in which an offset goes home by 63 % where the tank pays
+const Real offset_time("0.1");  // [s], in which an offset shrinks by 63 % if the tank has the energy
 
 const Parameter* tunable_of(const Network& network, const Element& element) {
   if (!element.parameter) return nullptr;
@@ -26,7 +26,7 @@ const Parameter* tunable_of(const Network& network, const Element& element) {
   return parameter.tunable ? &parameter : nullptr;
 }
 
-// Every element that can be there is there.
+// The network with every parameter at its largest, so that no element is without effect.
 Network at_largest(Network network) {
   for (Element& element : network.elements)
     if (const Parameter* tunable = tunable_of(network, element))
@@ -40,7 +40,7 @@ int slip_elements(const Network& network) {
   }));
 }
 
-// The blocks that a slip is next to in series.
+// Finds the blocks that are next to a slip in series.
 void find_loose(const NormalTree& tree, std::set<const NormalTree*>& loose) {
   const auto is_slip = [](const NormalTree& child) { return child.kind == NormalTree::Kind::slip; };
   const bool slides =
@@ -129,7 +129,7 @@ class TablesBuilder {
     else add_component(whole_tree(form, structure_), tree, !linear.empty());
   }
 
-  // Of what is no tree as a whole.
+  // Adds the parts of a network that is no tree as a whole.
   void add_parts(const NormalForm& form) {
     blocks_.add(network_, linear_elements(form), false);
     for (const NormalTree& component : form.components)
@@ -148,7 +148,7 @@ class TablesBuilder {
     return effective_elements(linear_part(network_, form));
   }
 
-  // Without one slips leave nothing to the brake.
+  // If there is none, slips leave nothing to the brake.
   bool has_dampers_behind_slips() const {
     if (!tables_.has_slips()) return false;
     const int first = tables_.blocks.front().part_count;
@@ -157,8 +157,8 @@ class TablesBuilder {
     });
   }
 
-  // Of the table only the shape is taken: its numbers follow from the parameters. Behind a contact the first block may
-  // be the one that is there.
+  // Only the table's shape is taken: its numbers follow from the parameters. `has_first_block`: behind a contact the
+  // first block is the one that was added before.
   void add_component(const NormalTree& component, const Tree& tree, bool has_first_block) {
     const std::vector<Real> any_stiffness(blocks_breadth_first(component).size(), Real(1));
     const SlipTable table = slip_table(component, any_stiffness, choices_.scalar);
@@ -226,7 +226,7 @@ class TablesBuilder {
     tables_.slip_elements.push_back(elements);
   }
 
-  // Of an amplifier's lag as many samples as leave a 64th of it, but no more than eight.
+  // Counts as many samples as an amplifier's lag takes to fall to a 64th, but no more than eight.
   void write_hold() {
     const PortDevice at_tool = device_.at_tool();
     const device_description& device = at_tool.description();
@@ -241,7 +241,7 @@ class TablesBuilder {
         to_scalar(Real(change)), to_scalar(Real(left * change * margin))};
   }
 
-  // How far w goes, and the static spring's stiffness, no less than they are at most.
+  // Upper bounds of the change of w while a force is held, and of the static spring's stiffness.
   void write_map() {
     const double margin = 1 + 16 * unit_roundoff(choices_.scalar);
     double change = 0, stiffness = 0;
@@ -260,8 +260,8 @@ class TablesBuilder {
     tables_.head.map = {true, to_scalar(Real(change * margin)), to_scalar(Real(stiffness * margin))};
   }
 
-  // Of what they are with every parameter at its largest: curves of slips through parts that give way without end would
-  // lose their digits.
+  // A small share of the stiffness with every parameter at its largest: next to a part without stiffness the curves of
+  // slips would lose their digits.
   double least_stiffness(const LinearForm& largest) const {
     return to_scalar(tables_.least_share * companion_stiffness(largest, choices_.scheme, period_));
   }

@@ -5,9 +5,9 @@
 
 namespace dashpot::compiler {
 
-// In: a law with its tables. Out: the same with the programs that follow from them; those that it had are left out.
-// Where it sheds, the command within the motor's limits is still to be written (lower/shed.hpp), and so is the map of a
-// static curve (lower/behind_map.hpp).
+// In: a law with its tables. Out: the same law with programs written from the tables; earlier programs are dropped. Two
+// things are still to be written: the command within the motor's limits, if the law sheds (lower/shed.hpp), and the map
+// of a static curve (lower/behind_map.hpp).
 UpdateLaw with_programs(UpdateLaw law);
 
 }  // namespace dashpot::compiler

@@ -1,4 +1,4 @@
-// What joins two ends without a slip, while parameters change.
+// A linear part between two ends, while parameters change.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ namespace dashpot::compiler {
 // Block 0 joins tool, or surface, and ground.
 struct TunedBlock {
   std::string name;
-  ExpressionId stiffness = {};    // g, in set(); none where it has none [N/m]
-  ExpressionId feedthrough = {};  // b∞, tuned; none where it has none [N·s/m]
-  VariableId held = {};           // π, a state; none of dampers alone [N]
+  ExpressionId stiffness = {};    // g, in set(); `nothing` if it has none [N/m]
+  ExpressionId feedthrough = {};  // b∞, tuned; `nothing` if it has none [N·s/m]
+  VariableId held = {};           // π, a state; `nothing` for dampers alone [N]
 };
 
 }  // namespace dashpot::compiler

@@ -1,5 +1,5 @@
-// A slip among blocks while parameters change, in closed form as discretise/slip_group has it: what its force would be
-// if it held, as far as it can, and the rest as a displacement that it gives way by (theory, section 5).
+// One slip among blocks while parameters change, in the closed form of discretise/slip_group: its force is what it
+// would be if the slip held, up to the yield force; the rest decides how far the slip gives way (theory, section 5).
 #pragma once
 
 #include <optional>
@@ -14,16 +14,16 @@ namespace dashpot::compiler {
 
 class TunedLoneSlip {
  public:
-  // From the port to the slip: in series or in parallel with what follows stands a block.
+  // The path from the port to the slip: at each level a block is in series or in parallel with all that follows.
   struct Level {
     bool is_series;
     std::size_t block;
   };
   using Path = std::vector<Level>;
-  // Nothing where there are several slips, or more blocks than one at a place.
+  // Nothing if there are several slips, or more than one block at a level.
   static std::optional<Path> path_of(const std::vector<slip_node<double>>& nodes, std::size_t first_block);
 
-  // All outlive this. `name` is the slip's.
+  // All must outlive this object. `name` is the slip's.
   TunedLoneSlip(TunedNumbers& numbers, const std::vector<TunedBlock>& blocks, Path path, std::string name)
       : numbers_(numbers),
         writer_(numbers.writer()),
@@ -33,29 +33,29 @@ class TunedLoneSlip {
         levels_(path_.size()) {}
 
   const Path& path() const { return path_; }
-  // In set(): by g of the block of each level, no less than 0, and the slip's yield force.
+  // In set(): from g of each level's block, 0 or more, and the slip's yield force.
   void tune(const std::vector<ExpressionId>& stiffness, ExpressionId yield);
   // In output(): assigns the force that opposes the tool. Returns a number above zero where the slip gives way.
   ExpressionId write_step(VariableId force, ExpressionId change);
-  // In update(): δ of a block of it, nothing of another.
+  // In update(): δ of a block on the path, `nothing` for another block.
   ExpressionId elongation(std::size_t block);
 
  private:
-  // Numbers of a level, tuned, and `nothing` where they do not matter.
+  // Tuned numbers of a level; `nothing` if they are not needed.
   struct Numbers {
     ExpressionId stiffness = nothing;  // g of its block
-    ExpressionId held = nothing;       // of all from there on, while the slip holds; nothing where that is rigid
+    ExpressionId held = nothing;       // g of this level and all beyond, while the slip holds; `nothing` if rigid
     ExpressionId inverse = nothing;    // in series, 1/Σ g of its block and what follows
-    ExpressionId given = nothing;      // what its block is stretched by for each newton that the slip does not hold
+    ExpressionId given = nothing;      // elongation of its block for each newton that the slip does not hold
     VariableId stretched = nothing;    // δ of its block, local of output()
   };
 
-  bool is_held_rigid(std::size_t level) const;  // all from there on
+  bool is_held_rigid(std::size_t level) const;  // whether this level and all beyond are rigid while the slip holds
   void tune_held();
   void tune_given();
-  // From the port on, while the slip holds: δ of every block, and the slip's force.
+  // While the slip holds: δ of every block, and the slip's force.
   ExpressionId write_held(ExpressionId change, std::vector<ExpressionId>& stretched);
-  // π of all from there on, while the slip holds.
+  // The held force π of this level and all beyond, while the slip holds.
   ExpressionId held_force(std::size_t level);
   ExpressionId block_force(std::size_t level, ExpressionId stretched);
   ExpressionId pi(std::size_t level) const;

@@ -1,4 +1,5 @@
-// Springs and dampers between inner nodes as statements, eliminated node after node from star to mesh:
+// Springs and dampers between inner nodes as statements. Node after node is eliminated; with conductances g between the
+// nodes, the star around node i becomes a mesh:
 //     g_jk += g_ij g_ik / Σ g_i
 // Conductances are only added, multiplied and divided, never subtracted: nothing cancels, at any ratio of values, and a
 // node that nothing holds is recognised exactly. A conductance that is not there is `nothing`, and so is its product
@@ -24,7 +25,7 @@ class TunedMesh {
   // After that, in the same program: g, and b∞.
   ExpressionId stiffness() const { return stiffness_; }
   ExpressionId feedthrough() const { return feedthrough_; }
-  // At low frequency.
+  // Damping at low frequency.
   ExpressionId viscosity(const std::vector<ExpressionId>& values);
 
   // The elongation of each edge: when the port has moved by `change`, under the pushes left by held(); and at rest with
@@ -43,7 +44,7 @@ class TunedMesh {
     Row to_port, to_held;
     ExpressionId through = nothing;
   };
-  // Ready for spreading: what stands for Σ g_i is its inverse, and weights are their shares of it.
+  // Prepared for moved() and held(): 1/Σ g_i in place of Σ g_i, and each weight divided by that sum.
   struct Shares {
     std::vector<Row> weight;
     Row to_port, inverse;
@@ -56,7 +57,7 @@ class TunedMesh {
   Conductances joined_up(const Row& of_edges) const;
   Shares eliminated(const Row& of_edges, const std::string& prefix, bool is_kept);
   ExpressionId inverse(ExpressionId pivot, const std::string& name);
-  // A local, or with `is_kept` a number of its own that stays until the next set().
+  // A local or, with `is_kept`, a tuned variable that lasts until the next set().
   ExpressionId told(const std::string& name, const char* unit, ExpressionId value, bool is_kept);
   std::vector<ExpressionId> spread(const Shares& shares, const Row& pushes, ExpressionId change,
                                    const std::string& prefix);

@@ -23,7 +23,7 @@ void TunedNumbers::assign(VariableId target, ExpressionId value, std::string pur
   writer_.assign(*program_, target, value, std::move(purpose));
 }
 
-// A local is of one program, and another program may have one of the same name.
+// A local belongs to one program; another program may have a local of the same name.
 VariableId TunedNumbers::local(const std::string& name, const std::string& unit, ExpressionId value,
                                std::string purpose) {
   const auto known = locals_.find(name);

@@ -12,15 +12,15 @@ namespace dashpot::compiler {
 
 class TunedNumbers {
  public:
-  // The writer outlives this; what is in its law keeps its name.
+  // The writer must outlive this object; variables already in its law keep their names.
   explicit TunedNumbers(LawWriter& writer);
 
   // Statements are added to `program` from here on; it must not move.
   void begin(std::vector<Statement>& program);
-  // The same of a program that goes on where the one at hand ends: a name that is taken there is taken here.
+  // The same for a program that continues the present one: names that are taken there stay taken.
   void go_on(std::vector<Statement>& program) { program_ = &program; }
 
-  // A variable of a name of its own.
+  // A new variable; its name gets a number if it is taken.
   VariableId scalar(const std::string& name, const std::string& unit, const std::string& meaning, Role role);
   void assign(VariableId target, ExpressionId value, std::string purpose);
   Statement& last() { return program_->back(); }
@@ -41,8 +41,8 @@ class TunedNumbers {
  private:
   LawWriter& writer_;
   std::vector<Statement>* program_ = nullptr;
-  std::map<std::string, VariableId> locals_;  // by what they are asked for as
-  std::set<VariableId> assigned_;             // in the program at hand
+  std::map<std::string, VariableId> locals_;  // by the name they were asked for
+  std::set<VariableId> assigned_;             // in the present program
   std::map<std::string, ExpressionId> constants_;
 };
 

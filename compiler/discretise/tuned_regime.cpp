@@ -17,7 +17,7 @@ TunedRegime::Part TunedRegime::of_slip(std::size_t place) {
   return {nothing, slides == nothing ? numbers_.one() : writer_.where(slides, numbers_.zero(), numbers_.one())};
 }
 
-// Any rigid part makes all rigid, else dampings add up.
+// If one part is rigid, all are; else dampings add up.
 TunedRegime::Part TunedRegime::in_parallel(const std::vector<Part>& children, const std::string& name) {
   Part whole;
   for (const Part& child : children) {
@@ -32,7 +32,7 @@ TunedRegime::Part TunedRegime::in_parallel(const std::vector<Part>& children, co
   return whole;
 }
 
-// One that slides makes all slide, rigid parts drop out, and the rest is 1/Σ 1/b.
+// If one part slides, all do; rigid parts drop out; the damping of the rest is 1/Σ 1/b.
 TunedRegime::Part TunedRegime::in_series(const std::vector<Part>& children, const std::string& name) {
   ExpressionId inverse = nothing, joins = nothing, rigid = nothing;
   bool is_rigid = true;
@@ -79,10 +79,10 @@ void TunedRegime::join(Matrix& between, std::size_t a, std::size_t b, Expression
   if (rigid != nothing) part.rigid = writer_.plus(part.rigid, rigid);
 }
 
-// What is joined to a node goes over to the first one that it is rigid with, else from star to mesh.
+// If the node is rigid with another, its joins go over to the first such node; else the star becomes a mesh.
 void TunedRegime::eliminate(Matrix& between, std::size_t node, const std::string& name) {
   std::vector<std::pair<std::size_t, Part>> joins;
-  ExpressionId is_left = nothing, sum = nothing;  // `nothing` where no join is rigid
+  ExpressionId is_left = nothing, sum = nothing;  // `nothing` if no join is rigid
   for (std::size_t other = 0; other < between.size(); ++other) {
     Part& part = node < other ? between[node][other] : between[other][node];
     if (other == node || (part.damping == nothing && part.rigid == nothing)) continue;

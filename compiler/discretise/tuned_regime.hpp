@@ -1,5 +1,5 @@
 // b∞ of slips and the blocks between them while parameters change: as statements, for every pattern of the slips that
-// slide at once (theory, section 5, "Regimes"). A slip that holds is rigid, of one that slides nothing is left.
+// slide at once (theory, section 5, "Regimes"). A slip that holds counts as rigid, one that slides as absent.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@ namespace dashpot::compiler {
 
 class TunedRegime {
  public:
-  // `damping`: b∞ of each block, `nothing` for none; `slides`: of each slip a number above zero where it slides, or
-  // `nothing` where all hold. Both by the places in the tables.
+  // `damping`: b∞ of each block, `nothing` if it has none; `slides`: for each slip a number above zero where it slides,
+  // or `nothing` if all hold. Both are indexed by the places in the tables.
   TunedRegime(TunedNumbers& numbers, std::vector<ExpressionId> damping, std::vector<ExpressionId> slides)
       : numbers_(numbers), writer_(numbers.writer()), damping_(std::move(damping)), slides_(std::move(slides)) {}
 
@@ -23,7 +23,8 @@ class TunedRegime {
                         const std::vector<TunableEnds>& links, const std::string& prefix);
 
  private:
-  // Of a part: what it damps, 0 where it is rigid or slides; above zero where it is rigid, `nothing` where it never is.
+  // A part: its damping, 0 where it is rigid or slides; and a number above zero where it is rigid, `nothing` if it
+  // never is.
   struct Part {
     ExpressionId damping = nothing, rigid = nothing;
   };

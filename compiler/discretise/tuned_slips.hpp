@@ -1,5 +1,5 @@
-// Slips while parameters change: the numbers of their solvers, which set() works out, the steps of the solvers, and
-// what they leave to the brake (theory, section 6).
+// Slips while parameters change: the numbers of their solvers, which set() computes, the steps of the solvers, and the
+// damping that is left to the brake (theory, section 6).
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ namespace dashpot::compiler {
 
 class TunedSlips {
  public:
-  // All outlive this; what is in the blocks may come later.
+  // All must outlive this object; the contents of the blocks may be filled in later.
   TunedSlips(TunedNumbers& numbers, const TunableTables& tables, const std::vector<TunedBlock>& blocks)
       : numbers_(numbers), writer_(numbers.writer()), tables_(tables), rule_(tables.head.slip_rule), blocks_(blocks) {}
 
@@ -27,8 +27,8 @@ class TunedSlips {
   // surface's change.
   void write_step(VariableId force, ExpressionId change);
   void write_push(VariableId force, ExpressionId approach, VariableId surface_change);
-  // After that: b∞/T behind slips as far as the brake makes it, the present b, and the b that it moves to, if asked
-  // for.
+  // After that: b∞/h behind slips as far as the brake makes it, the present b and, if asked for, the b that a lagging
+  // coil moves to.
   struct Brake {
     VariableId now, damping, wanted;
   };
@@ -36,7 +36,7 @@ class TunedSlips {
   // In reset(): b while all hold.
   void write_resting_brake(VariableId damping, ExpressionId left);
 
-  // In update(): δ of a block behind slips, and what is remembered of the sample.
+  // In update(): δ of a block behind slips; and storing what later samples need.
   ExpressionId elongation(std::size_t block);
   void keep();
 
@@ -67,7 +67,7 @@ class TunedSlips {
   void tune_end(Tree& tree, std::size_t node, std::vector<ExpressionId>& stiffness,
                 std::vector<ExpressionId>& compliance);
   ExpressionId yield_of(std::size_t slip, const std::vector<ExpressionId>& numbers);
-  // The same as a constant or tuned.
+  // The same, stored as a constant or as a tuned variable.
   void tune_yield(std::size_t slip, const std::vector<ExpressionId>& numbers, double& constant, VariableId& tuned);
   ExpressionId bounded_stiffness(std::size_t block);
   void write_tree(Tree& tree, VariableId force, ExpressionId change, VariableId surface_change);
@@ -77,7 +77,7 @@ class TunedSlips {
   ExpressionId within(ExpressionId left, const std::string& name, ExpressionId damping);
   ExpressionId least_of(ExpressionId one, ExpressionId other);
   ExpressionId largest_of(ExpressionId one, ExpressionId other);
-  // The value of a constant, nothing of what is tuned.
+  // The value of a constant, nothing for a tuned expression.
   std::optional<double> constant_in(ExpressionId value) const;
 
   TunedNumbers& numbers_;
@@ -89,11 +89,11 @@ class TunedSlips {
   std::vector<Tree> trees_;
   std::vector<Graph> graphs_;
   std::vector<VariableId> elongations_;  // local of output, of blocks in trees
-  std::vector<VariableId> signs_;        // local of output, of slips in trees and graphs where something asks for them
+  std::vector<VariableId> signs_;        // local of output, of slips in trees and graphs, if something reads them
   std::vector<ExpressionId> slides_;     // in output(), above zero where the slip gives way
-  std::vector<SlideMemory> memories_;    // one a slip where the encoder has steps
+  std::vector<SlideMemory> memories_;    // one for each slip if the encoder has steps
   VariableId change_ = nothing;          // of the tool, or of the surface, in output()
-  VariableId root_ = nothing, root_now_ = nothing;  // √b where the coil lags
+  VariableId root_ = nothing, root_now_ = nothing;  // √b if the coil lags
 };
 
 }  // namespace dashpot::compiler

@@ -1,12 +1,12 @@
-// A law whose brake is told more, for passivity alone.
+// Adds damping to a law's brake command for passivity.
 #pragma once
 
 #include "law/update_law.hpp"
 
 namespace dashpot::compiler {
 
-// The same law with its brake's command raised in every regime, by a number of the scalar's type [N·s/m]. In: a law
-// whose brake changes.
+// In: a law whose brake changes, a number of the scalar's type [N·s/m]. Out: the same law with the brake's command
+// raised by it in every regime.
 UpdateLaw with_steady_damping(UpdateLaw law, double damping);
 
 }  // namespace dashpot::compiler

@@ -11,7 +11,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// Whether its equation needs to know of which part of the network it is.
+// Whether the constant's equation needs to know which part of the network it belongs to.
 bool is_of_a_part(const Coefficient& c) {
   if (c.bank != port_bank) return true;
   switch (c.role) {

@@ -1,4 +1,4 @@
-// What a program of a law costs each time it runs, as far as all machines agree on it.
+// What a program of a law costs each time it runs: counts that are the same on every machine.
 #pragma once
 
 #include "law/update_law.hpp"
@@ -10,7 +10,7 @@ struct Cost {
   std::size_t multiplications = 0;
   std::size_t selections = 0;  // clamps and choices
   std::size_t guards = 0;      // against subnormals
-  std::size_t coupled = 0;     // operations of coupled slips at most: additions, multiplications, divisions
+  std::size_t coupled = 0;     // additions, multiplications and divisions for coupled slips, at most
   std::size_t states = 0;
 };
 Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program);

@@ -29,7 +29,7 @@ class Evaluation<Scalar>::Translation {
   std::size_t room() const { return room_; }  // places between two operations, of the widest statement
 
  private:
-  // What an expression has become: where its value stands once the instructions before have run.
+  // Where an expression's value stands once the earlier instructions have run.
   struct Value {
     Place place;
     std::size_t count;
@@ -60,7 +60,7 @@ class Evaluation<Scalar>::Translation {
     return known_.emplace(id, Value{place(one.target, one.count), one.count}).first->second;
   }
 
-  // Without its target; those of what it works on come first.
+  // The instruction without its target; those of its operands come first.
   Instruction instruction(ExpressionId id) {
     const Expression& e = law_.expressions[id];
     Instruction one{e.operation, 1, 0};
@@ -74,7 +74,7 @@ class Evaluation<Scalar>::Translation {
     return one;
   }
 
-  // What an operation names stands behind its operands: a value for each place, or a table or vector as a whole.
+  // What an operation refers to follows its operands: a value for each place, or a table or vector as a whole.
   void refer(const Expression& e, Instruction& one) const {
     const OperationFacts& facts = facts_of(e.operation);
     if (facts.refers_to == Referent::operands_only) return;
@@ -370,7 +370,7 @@ void Evaluation<Scalar>::solve(const SlipNetwork& network, NetworkSolver& solver
   take_results(network, solver);
 }
 
-// The numbers that parameters change. Returns what joins tool and ground.
+// Copies the numbers that parameters change. Returns the stiffness between tool and ground.
 template <class Scalar>
 Scalar Evaluation<Scalar>::tune(const SlipNetwork& network, NetworkSolver& solver) const {
   if (!network.tuned) return static_cast<Scalar>(network.through);
@@ -419,14 +419,14 @@ void Evaluation<Scalar>::take(const Instruction& one) {
   }
 }
 
-// A choice may leave what it does not take with a place that the table does not have.
+// A choice computes both of its values, so the index may lie outside of the table in the one that is not taken.
 template <class Scalar>
 Scalar Evaluation<Scalar>::picked(const Scalar* table, std::size_t last, Scalar place) {
   if (!(place > 0)) return table[0];
   return table[place < static_cast<Scalar>(last) ? static_cast<std::size_t>(place) : last];
 }
 
-// From the first place to the last; in lanes these take places in turn, and then join half by half.
+// Adds from the first place to the last. With lanes, places go to the lanes in turn, and lanes are joined half by half.
 template <class Scalar>
 Scalar Evaluation<Scalar>::sum(const Scalar* vector, std::size_t size, std::size_t lanes) {
   if (lanes == 1) {

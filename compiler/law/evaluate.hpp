@@ -12,11 +12,11 @@
 
 namespace dashpot::compiler {
 
-// Of a law of several joints, as the emitted code returns it.
+// The command of a law of several joints, as the emitted code returns it.
 template <class Scalar>
 struct JointCommand {
-  std::vector<Scalar> damping;  // one a brake
-  std::vector<Scalar> torque;   // one a motor
+  std::vector<Scalar> damping;  // one for each brake
+  std::vector<Scalar> torque;   // one for each motor
 };
 
 // Scalar is float or double, as the law's scalar type.
@@ -29,18 +29,18 @@ class Evaluation {
   command<Scalar> output(Scalar position, Scalar velocity);
   void update();
   command<Scalar> step(Scalar position, Scalar velocity);
-  // Of a law of several joints.
+  // The same for a law of several joints.
   void reset(const std::vector<Scalar>& positions);
   JointCommand<Scalar> step(const std::vector<Scalar>& positions, const std::vector<Scalar>& velocities);
   Scalar stored_energy();
   Scalar value_of(VariableId scalar) const { return at(scalar)[0]; }
-  // Of all forces, what the last output() kept for the motor to be able to follow; 1 of a law that does not shed.
+  // The share of all forces that the last output() kept so that the motor can follow; 1 for a law that does not shed.
   Scalar kept_share() const;
   // Values of the tunables in the order of the network's parameters; bit i: value i was NaN or beyond its range.
   unsigned set(const std::vector<Scalar>& values);
 
  private:
-  // What a step of slips is given and finds.
+  // Inputs and results of a step of slips.
   struct Lists {
     std::vector<Scalar> held, moved;
     std::vector<int> sign;
@@ -54,7 +54,7 @@ class Evaluation {
     std::vector<slip_corner<Scalar>> corners, merged;
   };
 
-  // The same of slips outside a tree.
+  // The same for slips outside a tree.
   struct NetworkSolver : Lists {
     std::vector<slip_link<Scalar>> links;
     std::vector<Scalar> between, to_tool, to_ground;
@@ -62,21 +62,21 @@ class Evaluation {
     std::vector<Scalar> room, numbers;
   };
 
-  // A place in the memory, of a scalar or of the first of several.
+  // Where a scalar, or the first of several, lies in the memory.
   struct Place {
     std::size_t first = 0;
-    std::size_t step = 0;  // from one to the next: 0 of a scalar, which all read alike
+    std::size_t step = 0;  // distance to the next; 0 for a scalar, which every place reads
   };
 
-  // One operation at `count` places, or a solver's step with what operand 0 says.
+  // One operation at `count` places, or a solver's step whose input is operand 0.
   struct Instruction {
     Operation operation;
     std::size_t count;
     std::size_t target;
-    std::array<Place, 4> operands = {};  // and behind them what it names
-    std::size_t last = 0;                // place of a table or vector
+    std::array<Place, 4> operands = {};  // followed by what the operation refers to
+    std::size_t last = 0;                // last place of a table or vector
     std::size_t lanes = 1;               // of a sum
-    const Statement* solver = nullptr;   // of such a step
+    const Statement* solver = nullptr;   // for a solver's step
   };
   using Instructions = std::vector<Instruction>;
 
@@ -97,7 +97,7 @@ class Evaluation {
   void give_held(const SolvedSlips& solved, Lists& lists) const;
   void take_results(const SolvedSlips& solved, const Lists& lists);
   Scalar tune(const SlipNetwork& network, NetworkSolver& solver) const;
-  void start();  // every state that starts somewhere, where the inputs are
+  void start();  // sets the states that start from the position
   Scalar damping(VariableId changing) const;
   static Scalar picked(const Scalar* table, std::size_t last, Scalar place);
   Scalar sum(const Scalar* vector, std::size_t size, std::size_t lanes);
@@ -105,12 +105,12 @@ class Evaluation {
   const Scalar* at(VariableId id) const { return memory_.data() + variables_[id.place()]; }
 
   const UpdateLaw& law_;
-  std::vector<Scalar> memory_;                         // variables, then constants, then what is between two operations
+  std::vector<Scalar> memory_;                         // variables, then constants, then intermediate values
   std::vector<std::size_t> variables_, coefficients_;  // where each begins
   Instructions output_, keep_, update_, energy_, start_, rest_, tune_, carry_;
-  std::vector<Scalar> lanes_;       // room for those of a sum
-  std::vector<std::size_t> turns_;  // of each guard, the first place that it takes next
-  std::vector<Solver> solvers_;     // one a coupling
+  std::vector<Scalar> lanes_;       // room for the partial sums of a sum
+  std::vector<std::size_t> turns_;  // for each guard, the first place that it tests next
+  std::vector<Solver> solvers_;     // one for each coupling
   std::vector<NetworkSolver> network_solvers_;
   bool sampled_ = false;  // a finite sample waits for update()
 };

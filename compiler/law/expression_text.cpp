@@ -9,8 +9,8 @@ class Printer {
  public:
   Printer(const UpdateLaw& law, const Spelling& spelling) : law_(law), spelling_(spelling) {}
 
-  // A form with what stands in its braces: {name}, {f}, {law}, {0}, or {0:1} for an operand that is to hold as tightly
-  // as 1.
+  // Fills in a form: {name}, {f}, {law}, {0}, or {0:1} for an operand that needs parentheses if it binds less tightly
+  // than 1.
   std::string text(ExpressionId id) const {
     const Expression& e = law_.expressions[id];
     std::string result;

@@ -8,13 +8,13 @@
 
 namespace dashpot::compiler {
 
-// How what an expression refers to is called; operations are written as operations.def says.
+// How names are written; operations are written as operations.def says.
 struct Spelling {
   Language language = Language::text;
-  std::string suffix = "";  // of functions, where a language has one for each type
+  std::string suffix = "";  // of functions, if a language has one for each type
   std::string law = "";     // before functions that each law has of its own
   std::function<std::string(VariableId variable)> variable;
-  std::function<std::string(CoefficientId coefficient)> coefficient;  // a table where it is picked from
+  std::function<std::string(CoefficientId coefficient)> coefficient;  // also the table that `pick` reads
   std::function<std::string(VariableId vector)> sum;
 };
 

@@ -1,5 +1,5 @@
-// Places in the tables of an update law. Every table has ids of its own type, so that one of a constant cannot be taken
-// for one of a variable.
+// Indices into the tables of an update law. Every table has an id type of its own, so that the id of a constant cannot
+// be taken for that of a variable.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace dashpot::compiler {
 
-// No entry of any table.
+// An id that refers to no entry.
 struct Nothing {};
 inline constexpr Nothing nothing{};
 
@@ -32,7 +32,7 @@ class Id {
   std::uint32_t place_ = of_nothing;
 };
 
-// A vector that is read by its own ids alone.
+// A vector that is indexed by its own ids only.
 template <class Entry>
 class Table : private std::vector<Entry> {
   using Entries = std::vector<Entry>;
@@ -48,7 +48,7 @@ class Table : private std::vector<Entry> {
     return Id<Entry>(Entries::size() - 1);
   }
 
-  // Of an entry of this table.
+  // The id of an entry of this table.
   Id<Entry> id_of(const Entry& entry) const { return Id<Entry>(static_cast<std::size_t>(&entry - Entries::data())); }
 
   bool has(Id<Entry> id) const { return id.place() < Entries::size(); }

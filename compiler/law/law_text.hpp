@@ -1,4 +1,4 @@
-// A law for people: its constants, and its programs with the equations that they are.
+// A law as text for people: its constants, and its programs with their equations.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The operations of an update law and what is the same for all laws about each: a row of operations.def.
+// The operations of an update law, with the facts about each from its row of operations.def.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ enum class Operation : std::uint8_t {
 #include "law/operations.def"
 };
 
-// How an operation is written in a language. `tightness`: 0 to 3, how tightly it holds its operands together.
+// How an operation is written in a language. `tightness`: 0 to 3, how tightly it binds its operands.
 struct OperationForm {
   int tightness = 3;
   const char* text = nullptr;  // nullptr where the language has none

@@ -7,7 +7,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// All numbers of a law, each with what it is called and its unit.
+// Visits all numbers of a law, each with its name and unit.
 template <class Visit>
 void each_number(const UpdateLaw& law, motion port_motion, Visit visit) {
   const bool turns = port_motion == motion::rotation;

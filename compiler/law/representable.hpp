@@ -1,4 +1,4 @@
-// Whether the constants of a law exist in its scalar type.
+// Whether the constants of a law are finite in its scalar type.
 #pragma once
 
 #include "law/update_law.hpp"

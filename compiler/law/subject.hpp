@@ -1,5 +1,5 @@
-// What part of the network a constant belongs to, so that code that shares nothing with the compiler's can work it out
-// from there once more. Elements are indices into Network::elements, nodes into Network::nodes.
+// Which part of the network a constant belongs to, so that verify/ can compute it again by code of its own. Elements
+// are indices into Network::elements, nodes into Network::nodes.
 #pragma once
 
 #include <cstddef>
@@ -19,16 +19,16 @@ struct OfElements {
 
 enum class RowOf : std::uint8_t {
   trial,        // the slip's force if it held
-  force,        // the component's force, less what the brake takes over while the slip gives way
-  stuck_force,  // the same, less what the brake takes over while the slip holds
-  elongation,   // of a block
+  force,        // the component's force while the slip gives way, less the part that the brake makes
+  stuck_force,  // the same while the slip holds
+  elongation,   // δ of a block
   spring,       // the force that the elongation adds to a block's spring
 };
 
 enum class RowFor : std::uint8_t {
   change,  // a displacement of the tool
   held,    // a force that a block holds
-  excess,  // what the slip does not hold
+  excess,  // the part of the trial force that the slip does not hold
 };
 
 // One coefficient in the closed form of a component with one slip.
@@ -47,8 +47,8 @@ struct OfTie {
   std::size_t first, second;
 };
 
-// A mode of a part that is no tree: of those that come from the same elements, by ascending relaxation rate. Of a
-// weight, the node where it pulls.
+// A mode of a part that is no tree: `mode` counts those of the same elements by ascending relaxation rate. For a
+// weight, `node` is where the mode pulls.
 struct OfPartMode {
   ElementList part;
   ElementList elements;
@@ -56,19 +56,19 @@ struct OfPartMode {
   std::size_t node = 0;
 };
 
-// These slips, where bit i of the regime says that the i-th gives way; all regimes alike where none is given.
+// A regime of these slips: bit i says that slip i gives way. Without a regime, the value is the same in all.
 struct OfRegime {
   std::vector<ElementList> slips;
   std::optional<std::size_t> regime;
 };
 
-// Of a law with tunable parameters: a number of its tables, or the share of the parameter in one of the number's terms.
+// In a law with tunable parameters: a number of its tables, or the factor of a parameter in one of the number's terms.
 struct OfNumber {
   std::size_t number;
   std::optional<std::size_t> term;
 };
 
-// Of a law with tunable parameters: the place in the tables' list of springs, blocks or slips, as the role says.
+// In a law with tunable parameters: the index into the tables' springs, blocks or slips, as the role says.
 struct OfTablePlace {
   std::size_t place;
 };

@@ -10,7 +10,7 @@ void visit_all(const std::vector<VariableId>& variables, const VisitVariable& vi
     if (variable != no_variable) visit(variable);
 }
 
-// Beside the forces held.
+// What a solver reads besides the held forces.
 struct SolverReads {
   const UpdateLaw& law;
   const VisitVariable& visit;

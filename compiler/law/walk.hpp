@@ -1,4 +1,4 @@
-// What the expressions and statements of a law refer to: the one place that knows their layout.
+// What the expressions and statements of a law refer to. Only this file knows their layout.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ void each_solved(Law& law, const Visit& visit) {
   for (auto& network : law.networks) visit(network);
 }
 
-// The table that a statement solves. Out: false, without a visit, where it assigns.
+// Visits the table that a statement solves. Out: false, without a visit, if it only assigns.
 template <class Visit>
 bool visit_solved(const UpdateLaw& law, const Statement& statement, const Visit& visit) {
   return match(
@@ -40,13 +40,13 @@ bool visit_solved(const UpdateLaw& law, const Statement& statement, const Visit&
       [&](const SolveNetwork& network) { return visit(law.networks[network.network]), true; });
 }
 
-// What a step finds beside the force, where something follows it.
+// What a step finds besides the force, if something reads it.
 enum class SlipResult {
   surface,  // Δs
   moved,
   sign,
 };
-// In: visit(variable, kind of result, place in the list of that kind). A surface may be one of what moves.
+// In: visit(variable, kind of result, place in the list of that kind). A surface may also be among the moved parts.
 template <class Visit>
 void each_result(const SolvedSlips& solved, const Visit& visit) {
   const bool is_among_moved = !solved.moved.empty() && solved.moved.back() == solved.surface;
@@ -72,7 +72,7 @@ bool reads(const UpdateLaw& law, const std::vector<Statement>& program, Variable
 std::set<CoefficientId> constants_read(const UpdateLaw& law);
 bool uses(const UpdateLaw& law, Operation operation);
 
-// Those of all its loops, which are alike; one where it has none.
+// The lanes of all its loops, which are alike; 1 if it has none.
 Lanes lanes_of_loops(const UpdateLaw& law);
 inline bool has_loops(const UpdateLaw& law) { return lanes_of_loops(law).are_there(); }
 

@@ -8,7 +8,7 @@
 
 namespace dashpot::compiler {
 
-// What is called like one of `words` gets a number. Parameters keep the names under which they are set.
+// A name that is one of `words` gets a number. Parameters keep the names under which they are set.
 UpdateLaw apart_from(const std::set<std::string>& words, UpdateLaw law);
 
 }  // namespace dashpot::compiler

@@ -64,7 +64,7 @@ class Appending {
       const VariableId id = own_.variables.id_of(v);
       if (result_.place.count(id) > 0 || is_left_out(id)) continue;
       Variable added = v;
-      // reset() is a function of its own: what it finds may be called as in output().
+      // reset() is a function of its own, so its locals may have the names of locals of output().
       if (of_start.count(id) > 0 && names.count(v.name) > 0) added.name = names.at(v.name);
       else added = renamed(v), names.emplace(v.name, added.name);
       if (added.role == Role::input) added.role = Role::local;

@@ -4,8 +4,8 @@
 
 namespace dashpot::compiler {
 
-// With the values that set() and reset() at 0 would find for the initial parameters, so that a new object needs
-// neither.
+// Gives states and tuned variables the values that set() and reset() at 0 would give them, so that a new object needs
+// neither call.
 UpdateLaw begun_at_rest(UpdateLaw law);
 
 }  // namespace dashpot::compiler

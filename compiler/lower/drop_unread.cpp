@@ -9,7 +9,7 @@ namespace dashpot::compiler {
 
 namespace {
 
-// False where nothing was left to drop. What a dropped statement alone has read is unread after it.
+// False if nothing was left to drop. After a drop, locals that only the dropped statement read are unread too.
 bool drop_once(UpdateLaw& law) {
   std::set<VariableId> read = {law.force, law.checked(), law.stored};
   if (law.brake_changes()) read.insert(law.brake);

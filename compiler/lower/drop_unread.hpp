@@ -1,4 +1,4 @@
-// Removes locals that nobody reads: not every shape of component needs all of them.
+// Removes locals that nothing reads: some kinds of law write more of them than they need.
 #pragma once
 
 #include "law/update_law.hpp"

@@ -7,7 +7,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// Whether `id` cannot be finite when `input` is not: ∞ − ∞ and 0 · ∞ are NaN. Guards, clamps and choices may hide it.
+// Whether `id` is never finite when `input` is not: ∞ − ∞ and 0 · ∞ are NaN. Guards, clamps and choices may hide it.
 bool shows(const UpdateLaw& law, ExpressionId id, VariableId input) {
   const Expression& e = law.expressions[id];
   switch (e.operation) {

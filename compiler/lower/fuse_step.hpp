@@ -1,5 +1,5 @@
-// What a step in a single function can leave out of output() and update(): copies from one to the other, and checks
-// whose result is known already.
+// What step(), a single function, can leave out of output() and update(): copies from one to the other, and checks
+// whose result is known.
 #pragma once
 
 #include <map>
@@ -9,11 +9,11 @@
 
 namespace dashpot::compiler {
 
-// In: a law without tunables. True where its two phases stand well in one function: where loops or coupled slips take
-// the time, it would only be longer.
+// In: a law without tunables. True if writing its two phases as one function is worth it: if loops or coupled slips
+// take the time, it would only make the code longer.
 bool is_fusable(const UpdateLaw& law);
 
-// The states that only carry a number of output() to update(), each with what it is a copy of.
+// The states that only carry a number from output() to update(), each with the variable that it copies.
 std::map<VariableId, VariableId> carried_numbers(const UpdateLaw& law);
 
 // The variables whose finiteness decides whether a sample is kept: the force, preceded by those inputs that may be

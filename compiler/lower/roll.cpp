@@ -9,16 +9,16 @@
 namespace dashpot::compiler {
 namespace {
 
-// Places; beyond, a loop. Measured for Maxwell elements on an AMD EPYC (Zen 4), g++ 12 -O3, each form in a class of its
-// own, the best of 200 chains of 1,000 steps and the lower quartile of 41 ticks after the caches were filled with other
-// things. Straight and rolled, in SSE2, AVX2 and AVX-512 registers:
+// Vectors with more places than this become loops. Measured for Maxwell elements on an AMD EPYC (Zen 4), g++ 12 -O3,
+// each form in a class of its own, the best of 200 chains of 1,000 steps and the lower quartile of 41 ticks after the
+// caches were filled with other things. Straight and rolled, in SSE2, AVX2 and AVX-512 registers:
 //   8 places:  12 and 14, 13 and 16, 12 and 20 ns in a chain;  1.27 and 1.16, 1.73 and 1.53, 1.43 and 1.25 µs cold
 //   16 places: 29 and 16, 18 and 16, 18 and 21 ns;             1.48 and 1.54, 1.60 and 1.60, 1.31 and 1.31 µs
 //   32 places: 48 and 21, 46 and 18, 45 and 21 ns;             2.35 and 1.36, 3.39 and 1.55, 2.67 and 1.34 µs
-// The tick that a servo loop waits for is the cold one, and a loop's code does not grow.
+// A servo loop runs with cold caches, so the last figures count, and a loop's code does not grow.
 constexpr std::size_t largest_straight_line = 8;
 
-// Four registers of partial sums: an addition takes two to four cycles, and one can begin in each.
+// Partial sums fill four registers: an addition takes two to four cycles, and one can begin in each cycle.
 constexpr std::size_t registers_of_sums = 4;
 
 std::size_t lanes_for(VectorRegisters registers, ScalarType scalar) {
@@ -26,7 +26,7 @@ std::size_t lanes_for(VectorRegisters registers, ScalarType scalar) {
   return registers_of_sums * std::max<std::size_t>(bytes_of(registers) / scalar_bytes, 1);
 }
 
-// The least a of the modes that an expression advances; empty where it advances none.
+// The smallest decay a of the modes that an expression advances; empty if it advances none.
 std::optional<double> smallest_decay(const UpdateLaw& law, ExpressionId id) {
   std::optional<double> smallest;
   each_expression(law, id, [&](const Expression& e) {
@@ -39,7 +39,7 @@ std::optional<double> smallest_decay(const UpdateLaw& law, ExpressionId id) {
   return smallest;
 }
 
-// The same value without its guard; nothing where it has none of its own.
+// The same value without its guard; nothing if it has no guard of its own.
 ExpressionId without_guard(UpdateLaw& law, ExpressionId id) {
   const Expression e = law.expressions[id];
   if (e.operation == Operation::flush) return e.operands[0];
@@ -48,8 +48,8 @@ ExpressionId without_guard(UpdateLaw& law, ExpressionId id) {
   return law.expressions.add({Operation::add, {e.operands[2], decayed}});
 }
 
-// Has the forces guarded in turn, by the fewest rounds of the loop a sample that come to each while it can wait; where
-// each needs its guard at each sample it stays.
+// Lets the guards of the forces take turns: each sample tests as few places as still reach every force in time. If
+// every force needs its guard at each sample, nothing changes.
 void take_turns(UpdateLaw& law, Statement& statement) {
   const Variable& forces = law.variables[statement.target];
   const std::optional<double> decay = smallest_decay(law, statement.value);

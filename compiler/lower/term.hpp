@@ -1,6 +1,6 @@
-// A formula that is recorded instead of computed: the scalar that kinematics and port maps (axes/) are evaluated with
-// to become expressions of a law. Terms are values; what is the same is found again when they are written
-// (term_writer.hpp).
+// A formula that is recorded instead of computed. Kinematics and port maps (axes/) are evaluated with this type in
+// place of a number, so that their formulas become expressions of a law. Terms are values; equal terms are found when
+// they are written (term_writer.hpp).
 #pragma once
 
 #include <memory>
@@ -25,10 +25,10 @@ class Term {
  public:
   struct Node {
     TermKind kind;
-    double number = 0;         // of a number
-    VariableId variable = {};  // of a variable
+    double number = 0;         // if it is a number
+    VariableId variable = {};  // if it is a variable
     std::vector<Term> operands = {};
-    std::shared_ptr<const TermTable> table = {};  // of a pick
+    std::shared_ptr<const TermTable> table = {};  // if it is a pick
   };
 
   Term() : Term(0.0) {}
@@ -55,7 +55,7 @@ inline Term operator/(const Term& a, const Term& b) { return {TermKind::divide, 
 inline Term sqrt(const Term& a) { return {TermKind::square_root, {a}}; }
 inline Term sin(const Term& a) { return {TermKind::sine, {a}}; }
 inline Term cos(const Term& a) { return {TermKind::cosine, {a}}; }
-// What a brake without a limit gives at most.
+// Whether a term stands for the limit of a brake without a limit.
 inline bool is_unlimited(const Term& a) {
   return a.node().kind == TermKind::number && a.node().number >= axes::unlimited;
 }
@@ -64,7 +64,7 @@ inline Term where(const Term& condition, const Term& yes, const Term& no) {
   return {TermKind::where, {condition, yes, no}};
 }
 inline Term min(const Term& a, const Term& b) { return is_unlimited(b) ? a : where(b - a, a, b); }
-// Whether it is seen to be 0 whatever its variables.
+// Whether the form of the term shows that it is 0, whatever its variables.
 inline bool is_zero(const Term& a) {
   const std::vector<Term>& of = a.node().operands;
   switch (a.node().kind) {
@@ -75,7 +75,7 @@ inline bool is_zero(const Term& a) {
     default: return false;
   }
 }
-// Whether it is seen to be 0 or more, whatever its variables: of squares, roots and what they make together.
+// Whether the form of the term shows that it is 0 or more, whatever its variables, as with squares and roots.
 inline bool is_never_negative(const Term& a) {
   const std::vector<Term>& of = a.node().operands;
   switch (a.node().kind) {
@@ -92,7 +92,7 @@ inline bool is_never_negative(const Term& a) {
   }
 }
 inline Term max(const Term& a, const Term& b) { return is_zero(b) && is_never_negative(a) ? a : where(a - b, a, b); }
-// The number that stands at the whole part of a place, from 0, which lies within the table.
+// The table's entry whose index is the whole part of `place`, which must lie within the table.
 inline Term pick(TermTable table, const Term& place) { return {std::move(table), place}; }
 inline Term abs(const Term& a) { return where(a, a, -a); }
 

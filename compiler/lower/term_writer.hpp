@@ -22,27 +22,27 @@
 
 namespace dashpot::compiler {
 
-// Of sine and cosine before rounding, at most [1].
+// The largest error of sine and cosine before rounding [1].
 double sine_error(ScalarType scalar);
 
 class TermWriter {
  public:
   explicit TermWriter(LawWriter& writer) : writer_(writer) {}
-  // For another program of the same law: constants are called as in the first.
+  // For another program of the same law: constants have the same names as in the first.
   TermWriter(LawWriter& writer, const TermWriter& first)
       : writer_(writer), labels_(first.labels_), numbers_(first.numbers_), ranges_(first.ranges_) {}
 
-  // Between what a variable, which is an angle, always stays [rad].
+  // States the range in which an angle, a variable, always stays [rad].
   void bound(VariableId angle, double low, double high) { ranges_[angle] = {low, high}; }
 
-  // What a local is called that is made of this term, if one is.
+  // The name of the local for this term, if one is made.
   void call(const Term& term, const std::string& name, const std::string& unit, const std::string& meaning);
-  // What a constant of this magnitude is called.
+  // The name of a constant with this magnitude.
   void call(double number, const std::string& name, const std::string& unit, const std::string& meaning);
 
-  // All terms that will be written are counted first.
+  // Call this for all terms before any is written, so that terms used twice become locals.
   void count(const Term& term);
-  // As a statement of `program`, behind those that it needs.
+  // Writes a statement of `program`, after those that it needs.
   void assign(std::vector<Statement>& program, VariableId target, const Term& term, const std::string& purpose);
 
  private:
@@ -55,7 +55,7 @@ class TermWriter {
   enum class Kind { number, variable, add, subtract, multiply, divide, square_root, where, pick };
   struct Node {
     Kind kind;
-    double number = 0;  // or which of tables_
+    double number = 0;  // or an index into tables_
     VariableId variable = {};
     std::vector<NodeId> operands = {};
     std::size_t uses = 0;
@@ -64,7 +64,7 @@ class TermWriter {
   };
   struct Label {
     std::string name, unit, meaning;
-    bool is_made = false;  // there is a constant of that name
+    bool is_made = false;  // a constant of that name has been made
   };
   struct Circular {
     Signed sine, cosine;
@@ -79,7 +79,7 @@ class TermWriter {
   Signed divide(Signed a, Signed b);
   Signed where(Signed condition, Signed yes, Signed no);
   Signed pick(const std::shared_ptr<const TermTable>& table, NodeId place);
-  NodeId positive(Signed value);  // a node of that value
+  NodeId positive(Signed value);  // a node with that value
   Circular circular(Signed angle);
   Circular about_half_turns(Signed angle, const std::string& which);
   Circular about_eighth_turns(Signed angle, int eighths, const std::string& which);
@@ -99,9 +99,9 @@ class TermWriter {
   std::vector<Node> nodes_;
   std::map<std::tuple<Kind, double, VariableId, std::vector<NodeId>>, NodeId> known_;
   std::map<const Term::Node*, Signed> interned_;
-  std::vector<Term> kept_;  // so that no address is used again
+  std::vector<Term> kept_;  // keeps all terms alive, so that no address is reused
   std::map<NodeId, Circular> circular_;
-  std::vector<std::shared_ptr<const TermTable>> tables_;  // each of its name
+  std::vector<std::shared_ptr<const TermTable>> tables_;  // one for each name
   std::map<double, Label> labels_;
   std::size_t parts_ = 0, numbers_ = 0;
   std::map<VariableId, std::pair<double, double>> ranges_;

@@ -14,9 +14,9 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double unit = 0x1p-23;         // of the tables' whole numbers
-constexpr std::size_t most_states = 32;  // of a storage function beyond the tables: more take seconds to check
-constexpr double strictness = 1e-9;      // of its matrices, so that they bear rounding
+constexpr double unit = 0x1p-23;         // the tables hold whole numbers of this
+constexpr std::size_t most_states = 32;  // of a storage function without a table: more take seconds to check
+constexpr double strictness = 1e-9;      // margin of its matrices, so that rounding does not spoil the proof
 
 bool adapts(const SampledLoop& loop) { return loop.has_device && loop.velocity.estimator == estimator_kind::foaw; }
 
@@ -134,8 +134,7 @@ std::optional<StorageProof> adaptive_storage_proof(const MotorConstants& motor, 
   const Rational gain = abs(Rational(motor.velocity_gain)), T = loop.sample_period;
   StorageProof proof = *beside;
   proof.damping = ceiling(Rational(beside->damping) + Rational(known->factor) * gain * (T + Rational(loop.jitter)) / T);
-  // Both remember q0 … q_delay. Behind these come the variables that are remembered for the estimate alone, then the
-  // modes.
+  // Both proofs have the states q0 … q_delay. After these come the states of the estimate alone, then the modes.
   const std::size_t shared = loop.delay_samples + 1, more = known->storage.size() - shared;
   const auto place = [&](std::size_t i) { return i < shared ? i : i + more; };
   proof.storage = known->storage;

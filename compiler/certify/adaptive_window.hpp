@@ -1,8 +1,8 @@
 // The damping needed by a motor that follows a velocity estimate whose coefficients change from sample to sample,
 // proved by one storage function for all of them.
 //
-// An adaptive window (FOAW) takes any of the windows n = 1 … N (theory, section 6b, "Adaptive windows"). Of every n the
-// estimate is a mean of the last n differences, with weights w_{n,j}.
+// An adaptive window (FOAW) may take any of the windows n = 1 … N (theory, section 6b, "Adaptive windows"). With window
+// n the estimate is a mean of the last n differences, with weights w_{n,j}.
 //
 // For the gain g of an estimate that drives no states there is a table: the least damping with one storage function for
 // all windows, as a multiple of |g|, by the sign of g, the delay and N. The tables are data, windows/*.txt, in whole
@@ -10,7 +10,7 @@
 // Cauchy and Schwarz.
 //
 // A difference over the time that has passed, v̂ = Δu/T_k, T₁ ≤ T_k ≤ T₂ (theory, section 6b, "Measured intervals"):
-// V = p v̂², with p = |g| √(T₁T₂)/2, needs b = |g| (T₁ + T₂)/(2 √(T₁T₂)), however late.
+// V = p v̂², with p = |g| √(T₁T₂)/2, needs b = |g| (T₁ + T₂)/(2 √(T₁T₂)), at any delay.
 #pragma once
 
 #include <optional>

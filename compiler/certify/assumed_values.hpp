@@ -8,10 +8,10 @@
 
 namespace dashpot::compiler {
 
-inline constexpr double assumed_spread = 0.2;  // of each value, up and down [1]
+inline constexpr double assumed_spread = 0.2;  // share by which each value is raised and lowered [1]
 
 struct VariedDevice {
-  std::string key;  // of the value that differs, as the device file has it
+  std::string key;  // key of the value that differs, as the device file has it
   Device device;
 };
 

@@ -22,7 +22,7 @@ using axes::Pair;
 using axes::Sloped;
 using axes::Symmetric;
 
-constexpr int places_a_side = 40;  // for reports of the brakes' share
+constexpr int places_a_side = 40;  // parts of the workspace along each side, for the brakes' share in reports
 
 bool compensates(const UpdateLaw& law) {
   return std::any_of(law.coefficients.begin(), law.coefficients.end(), [](const Coefficient& c) {
@@ -37,13 +37,13 @@ double sum_of_yields(const Network& network) {
   return sum;
 }
 
-// The gain of the port's own estimate g·v̂ by which a contact with damping is released [N·s/m].
+// Gain of the velocity estimate g·v̂ that decides when a contact with damping ends [N·s/m].
 double follows(const CertifiedPort& port) { return port.slips ? port.slips->compensation : 0; }
 
 axes::PortLoad load_of(const CertifiedPort& port, double sample_period) {
   axes::PortLoad load;
   load.map = port.port->map;
-  // On an ideal device an estimate counts with a gain of 1.
+  // The certificate is for an ideal device, on which the estimate has a gain of 1.
   load.held = std::max(port.certificate->bound.needed - follows(port), 0.0) / sample_period * (1 + 1e-12);
   load.grounded = to_double(port.form->linear.static_stiffness);
   for (const Mode& mode : port.form->linear.modes) load.relaxing += to_double(mode.stiffness);
@@ -53,7 +53,7 @@ axes::PortLoad load_of(const CertifiedPort& port, double sample_period) {
   return load;
 }
 
-// How far both joints move at their largest speed over a hold, and over one more for each sample of delay.
+// Sets how far both joints move at their largest speed during a hold, and during one more for each sample of delay.
 axes::SampledLoop loop_of(const AxesDevice& device) {
   axes::SampledLoop loop;
   loop.longest_period = loop_of_joint(device.joints[0]).longest_hold();
@@ -81,14 +81,14 @@ axes::TipDamping wanted_at_tip(const AxesNetwork& network, const std::vector<Cer
   };
 }
 
-// None of a device without a workspace.
+// Places spread over the workspace; none if the device has no workspace.
 std::vector<axes::Place> places_of(const AxesDevice& device, int side) {
   if (device.workspace[0].width() == 0) return {};
   return axes::places_in(device.arm, device.workspace, side);
 }
 
-// A share can only be given of a damping that takes power in every direction, so 1e-9 of the largest wanted damping is
-// added in all directions: a single wall has it in one only. Empty if no damping is wanted.
+// A single wall damps in one direction only, but a share is defined only for a damping that takes power in every
+// direction: so 1e-9 of the largest wanted damping is added in all directions. Empty if no damping is wanted.
 std::optional<axes::TipDamping> definite_at_tip(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                                                 const AxesDevice& device, const std::vector<axes::Place>& places) {
   const axes::TipDamping wanted = wanted_at_tip(network, ports);
@@ -104,8 +104,8 @@ std::optional<axes::TipDamping> definite_at_tip(const AxesNetwork& network, cons
   };
 }
 
-// What of the ports' damping the two brakes make over joint positions, each along its own direction: of ports without a
-// contact, which damp everywhere.
+// The damping that the ports ask of the two brakes over joint positions, each along its own direction. Only ports
+// without a contact count: they damp everywhere.
 Pair<Sloped> dampings_over(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                            const AxesDevice& device, const Pair<Sloped>& joints) {
   const axes::Pose<Sloped> pose = axes::pose(device.arm, joints);
@@ -118,7 +118,7 @@ Pair<Sloped> dampings_over(const AxesNetwork& network, const std::vector<Certifi
   return {max(Sloped(0), along.xx), max(Sloped(0), along.yy)};
 }
 
-// Whether it is told what brakes make of the ports' damping: two by `diagonal`, if they follow their commands at once.
+// Whether it is known what the brakes make of the ports' damping: only for two brakes by `diagonal` without a lag.
 bool is_brakes_part_known(const AxesDevice& device, axes::BrakeRule rule) {
   const bool is_late = std::any_of(device.brakes.begin(), device.brakes.end(), [](const AlongBrake& brake) {
     return brake.brake.coil_lag > 0 || brake.brake.slew > 0;
@@ -126,8 +126,8 @@ bool is_brakes_part_known(const AxesDevice& device, axes::BrakeRule rule) {
   return rule == axes::BrakeRule::diagonal && device.brakes.size() == 2 && !is_late;
 }
 
-// What is there: the joints' own damping, and of the ports' damping what brakes are known to make of it with what they
-// have left beside `added`, where no gate spends that on what couples them.
+// The damping that is there: the joints' own, plus what the brakes are known to make of the ports' damping with the
+// range that `added` leaves them. With a gate the latter does not count, since the gate uses it for the coupling.
 axes::GivenDamping given_by(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                             const AxesDevice& device, axes::BrakeRule rule, bool is_gated,
                             const std::vector<double>& added) {
@@ -165,7 +165,7 @@ std::vector<double> addition(const AxesDevice& device, const Pair<double>& weigh
   return added;
 }
 
-// vᵀ J⁻ᵀ B J⁻¹ v of the brakes' B for the unit v in which it is largest, over the workspace.
+// The largest damping at the tip: vᵀ J⁻ᵀ B J⁻¹ v with the brakes' matrix B, over all unit vectors v and the workspace.
 double largest_at_tip(const std::vector<double>& dampings, const AxesDevice& device) {
   double largest = 0;
   for (const axes::Place& place : axes::places_in(device.arm, device.workspace, places_a_side)) {
@@ -184,13 +184,13 @@ double largest_at_tip(const std::vector<double>& dampings, const AxesDevice& dev
   return largest;
 }
 
-// x W, of each joint.
+// x W as a number for each joint.
 std::string at_joints(double x, const AxesCertificate& c, const AxesDevice& device) {
   if (device.arm.kind == axes::Kinematics::cartesian) return fmt::format("{:.6g} N·s/m", x);
   return fmt::format("{:.6g} and {:.6g} N·m·s/rad", x * c.weight[0], x * c.weight[1]);
 }
 
-// Of a place that is told in millimetres, what is less than a nanometre is 0.
+// A coordinate in millimetres; less than a nanometre counts as 0.
 double in_millimetres(double place) { return 1e3 * (std::abs(place) < 1e-9 ? 0 : place); }
 
 // Why it is not known how far the joints move while a force is held; empty if it is known.
@@ -204,8 +204,8 @@ std::string unknown_travel(const AxesDevice& device) {
 // Empty where every port has a bound.
 std::string unproved(const std::vector<CertifiedPort>& ports) {
   for (const CertifiedPort& port : ports) {
-    // A contact is not proved on one axis where the brake leaves a free tool alone; here what is needed is always
-    // there.
+    // On one axis a contact is not proved if the brake is off while the tool is free. Here the needed damping is added
+    // at all times, so that the bound counts.
     if (port.certificate->bound.proof == Proof::none && !(port.certificate->bound.needed > 0))
       return fmt::format("port '{}': {}", port.port->name, port.certificate->bound.reason);
     if (compensates(*port.law))
@@ -217,11 +217,11 @@ std::string unproved(const std::vector<CertifiedPort>& ports) {
 
 bool damps(const CertifiedPort& port) { return largest_damping(port) > 0; }
 
-// Whether the port's damping takes values between none and all, so that the ends of R do not tell what it is in
-// between.
+// Whether the port's damping takes values between its least and its largest: bounds of R at the two ends do not then
+// cover it.
 bool varies(const CertifiedPort& port) { return port.law->brake_changes() && port.form->has_slips(); }
 
-// Of a joint, where one is.
+// The loop of a joint whose commands come late, if there is one.
 std::optional<SampledLoop> late_loop(const AxesDevice& device) {
   for (const device_description& joint : device.joints)
     if (const SampledLoop loop = loop_of_joint(joint); loop.is_late()) return loop;
@@ -251,7 +251,7 @@ std::string uncovered_in_ports(const std::vector<CertifiedPort>& ports, const Ax
   return "";
 }
 
-// γ of ‖v̂‖ ≤ γ ‖Δq/h‖, of both joints; 0 where the motors follow no estimate. Empty where it is not known.
+// γ with ‖v̂‖ ≤ γ ‖Δq/h‖ for both joints; 0 if the motors follow no estimate. Empty if it is not known.
 std::optional<double> gain_of_estimates(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                                         const AxesDevice& device) {
   if (!network.has_field() && std::none_of(ports.begin(), ports.end(), damps)) return 0;
@@ -264,14 +264,14 @@ std::optional<double> gain_of_estimates(const AxesNetwork& network, const std::v
   return most;
 }
 
-// Of a network on devices that differ by their brakes' limits and the joints' own damping alone.
+// What a network asks for on all devices that differ only in the brakes' limits and the joints' own damping.
 struct Asked {
   const AxesNetwork& network;
   const std::vector<CertifiedPort>& ports;
   axes::BrakeRule rule;
   Pair<double> weight;
-  double for_each = 0;  // of what motors make of estimates [1]
-  double contacts = 0;  // Σ κ ‖g gᵀ‖ of those that let go by an estimate κ g·v̂ [N·s/m]
+  double for_each = 0;  // damping needed for each unit of damping that motors make from estimates [1]
+  double contacts = 0;  // Σ κ ‖g gᵀ‖ of contacts that end by an estimate κ g·v̂ [N·s/m]
   double for_lag = 0;   // [N·s/m]
 };
 
@@ -281,20 +281,20 @@ std::vector<axes::PortLoad> loads_of(const Asked& asked, const AxesDevice& devic
   return loads;
 }
 
-// What held forces need beside `given`.
+// The damping that held forces need beyond `given`.
 axes::NeededDamping needed_beside(const axes::GivenDamping& given, const Asked& asked, const AxesDevice& device,
                                   int parts = axes::most_boxes) {
   return axes::needed_damping(device.arm, device.workspace, loads_of(asked, device), loop_of(device), asked.weight,
                               given, axes::bound_tolerance, parts);
 }
 
-// γ T/h, with a gain of 1 where none is known.
+// γ T/h, with γ = 1 if it is not known.
 double for_each_estimate(const AxesDevice& device, const std::optional<double>& gain) {
   return gain.value_or(1) * loop_of(device).longest_period / device.loop().sample_period * (1 + 1e-12);
 }
 
-// What the motors make, from estimates, of the damping of ports and field with so much of the brakes used up; behind a
-// gate but what couples the brakes.
+// The part of the ports' and the field's damping that the motors make from estimates, if `added` of the brakes' range
+// is used up. With a gate, the coupling of the brakes is left out.
 axes::Size remainder_beside(const std::vector<double>& added, const Asked& asked, const AxesDevice& device,
                             bool is_gated, int parts) {
   std::vector<axes::PortDamping> dampings;
@@ -327,13 +327,13 @@ std::string why_unbounded(const Asked& asked, const AxesDevice& device) {
          "or is singular";
 }
 
-// Of a port, over the workspace.
+// Bounds for a port over the workspace.
 struct PortSize {
   double gradient = 0;  // ‖g gᵀ‖ [1]
   double turning = 0;   // ‖M H‖ [N/m]
 };
 
-constexpr int rough_parts = 500;  // parts of the workspace, where no added damping depends on the result
+constexpr int rough_parts = 500;  // parts of the workspace, for bounds that no added damping depends on
 
 std::vector<PortSize> sizes_of(const Asked& asked, const AxesDevice& device, bool is_late) {
   const std::vector<axes::PortLoad> loads = loads_of(asked, device);
@@ -348,8 +348,8 @@ std::vector<PortSize> sizes_of(const Asked& asked, const AxesDevice& device, boo
   return sizes;
 }
 
-// K of a port: the error of its force is at most K times the error of its depth [N/m]. Behind slips this holds as long
-// as an encoder step alone makes none of them give way, which is not checked here.
+// K of a port: the error of its force is at most K times the error of its depth [N/m]. With slips this holds only if an
+// encoder step alone makes none of them give way, which is not checked here.
 std::optional<double> gain_of_steps(const CertifiedPort& port, const AxesDevice& device) {
   if (port.form->has_slips()) return std::nullopt;
   if (!port.slips) return port.certificate->quantisation_gain;
@@ -362,8 +362,8 @@ std::optional<double> gain_of_steps(const CertifiedPort& port, const AxesDevice&
   return most;
 }
 
-// At each joint ½ √W_j √(Σ W_l Δ_l²) (Σ K ‖g gᵀ‖ + ‖M H‖ + ‖R‖ P), P of the estimators; empty where that is not
-// bounded.
+// At each joint ½ √W_j √(Σ W_l Δ_l²) (Σ K ‖g gᵀ‖ + ‖M H‖ + ‖R‖ P), with encoder steps Δ and the estimators' largest
+// response P to a step; empty if that is not bounded.
 std::optional<Pair<double>> torque_of_steps(const std::vector<double>& added, const std::vector<PortSize>& sizes,
                                             const Asked& asked, const AxesDevice& device) {
   double stiffness = 0, pulse = 0, step = 0;
@@ -385,14 +385,14 @@ std::optional<Pair<double>> torque_of_steps(const std::vector<double>& added, co
   return Pair<double>{std::sqrt(asked.weight[0]) * alike, std::sqrt(asked.weight[1]) * alike};
 }
 
-// What held forces need beside what is there, with nothing added to it.
+// The damping that held forces need beyond what is there before anything is added.
 axes::NeededDamping rest_beside(bool is_gated, const Asked& asked, const AxesDevice& device,
                                 int parts = axes::most_boxes) {
   const std::vector<double> none(device.brakes.size(), 0);
   return needed_beside(given_by(asked.network, asked.ports, device, asked.rule, is_gated, none), asked, device, parts);
 }
 
-// What a brake can be told to add at most.
+// The largest addition that a brake can be told to make.
 double most_added(const brake_description& brake) {
   return brake.kind == brake_kind::none ? axes::infinity : std::max(0.0, brake.max_damping - brake.residual_damping);
 }
@@ -404,8 +404,7 @@ bool is_within_reach(const std::vector<double>& added, const AxesDevice& device)
   return true;
 }
 
-// Which end of an enclosure to go by: the proved upper bound, or the lower bound that some place of the workspace
-// attains.
+// Which end of a bound to use: the proved upper end, or the lower end that some place of the workspace attains.
 enum class End { proved, attained };
 
 struct Added {
@@ -417,8 +416,8 @@ struct Added {
 
 constexpr int most_rounds = 12;
 
-// What is added leaves the brakes less range for the ports' damping, and the motors more to do: solved in a few rounds,
-// or not at all.
+// An addition leaves the brakes less range for the ports' damping, so that the motors have more to do and more must be
+// added. A few rounds find the balance, or there is none.
 Added added_for(double rest, const Asked& asked, const AxesDevice& device, bool is_gated, End end = End::proved,
                 int parts = axes::most_boxes) {
   Added result;
@@ -435,7 +434,7 @@ Added added_for(double rest, const Asked& asked, const AxesDevice& device, bool 
     if (result.is_enough) break;
     added = wanted;
     if (!is_within_reach(added, device)) break;
-    // A little more than is asked for, so that rounds end.
+    // A little more than is asked for, so that the rounds come to an end.
     for (double& damping : added) damping *= 1 + 1e-3;
   }
   result.is_enough = result.is_enough && std::isfinite(result.missing) && is_within_reach(added, device);
@@ -565,7 +564,7 @@ Asked asked_like(const AxesCertificate& like, const AxesNetwork& network, const 
   return {network, ports, rule, like.weight, for_each, like.contacts, like.for_lag};
 }
 
-// As certify_axes() chooses: behind a gate where there is one.
+// Uses a gate where certify_axes() would.
 template <class AddedWith>
 Added settled(const Asked& asked, const AxesDevice& device, const AddedWith& added_with) {
   const axes::ViscousField& field = asked.network.field;
@@ -623,7 +622,7 @@ std::string why_not_certified(const AxesCertificate& c, const AxesDevice& device
 
 namespace {
 
-// How a field that turns is kept passive; nothing of another.
+// Says how a field with an antisymmetric part is kept passive; empty for other fields.
 std::vector<std::string> curl_lines(const AxesCertificate& c, const AxesDevice& device) {
   if (c.gate) {
     const GatePassage& passage = *c.passage;
@@ -689,8 +688,8 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
 
 namespace {
 
-// What of the energy that the encoders' steps bring in friction takes; empty where there are none, or nothing is
-// proved.
+// Says how much of the energy that the encoders' steps bring in is taken by friction; empty if the encoders have no
+// steps or nothing is proved.
 std::string steps_line(const AxesCertificate& c, const AxesDevice& device) {
   const auto has_steps = [](const device_description& joint) { return joint.encoder.step > 0; };
   if (!c.is_proved || std::none_of(device.joints.begin(), device.joints.end(), has_steps)) return "";

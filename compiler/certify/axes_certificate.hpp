@@ -1,5 +1,5 @@
-// What is proved about a law of two axes on its device (theory, section 12): the forces that its ports hold from one
-// sample to the next, against the damping that is there for certain, over the whole workspace.
+// What is proved about a law of two axes on its device (theory, section 12): that the damping which is there for
+// certain covers the forces that the ports hold from one sample to the next, over the whole workspace.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,9 @@ namespace dashpot::compiler {
 struct CertifiedPort {
   const Port* port;
   const NormalForm* form;
-  const UpdateLaw* law;            // of one axis
+  const UpdateLaw* law;            // for one axis
   const Certificate* certificate;  // of that law on an ideal device of the same rate
-  std::optional<SlipMotor> slips;  // of slips or a contact, on that device
+  std::optional<SlipMotor> slips;  // if it has slips or a contact; on that device
 };
 
 struct AxesCertificate {
@@ -34,25 +34,25 @@ struct AxesCertificate {
   double for_estimates = 0;  // share of `needed` that is due to velocity estimates [N·s/m]
   double contacts = 0;  // in `for_estimates`, Σ κ ‖g gᵀ‖ of contacts that are released by an estimate κ g·v̂ [N·s/m]
   double for_lag = 0;     // share of `needed` that is due to the lag of the motors' amplifiers [N·s/m]
-  double least_rest = 0;  // lower bound of what held forces need beyond what is there, negative if that is more [N·s/m]
-  double missing = 0;     // x that has to be added to what is there already; not below it [N·s/m]
+  double least_rest = 0;  // lower bound of what held forces need beyond the damping there; may be negative [N·s/m]
+  double missing = 0;     // upper bound of the x that has to be added to the damping there [N·s/m]
   axes::Pair<double> weight{1, 1};  // square of each joint's link [m²]; [1] of joints that slide
   axes::Pair<double> worst{0, 0};   // tip where most is missing [m]
   std::vector<double> added;        // to each brake's command [N·m·s/rad] or [N·s/m]
   double added_at_tip = 0;  // the largest damping that `added` makes at the tip, over all places and directions [N·s/m]
   std::string uncovered;    // the part of this network on this device that no bound covers yet; empty if there is none
-  bool lies_in_port = false;  // the cause of either is a port's network: another one may have a bound
+  bool lies_in_port = false;  // the reason lies in a port's network: another network may have a bound
   bool certified = false;
   // Upper bounds of how much the encoders' steps change the motors' torques, one for each joint [N·m] or [N]; empty if
   // they are not bounded.
   std::optional<axes::Pair<double>> torque_of_steps;
-  std::optional<axes::ShareMap> share;  // of the ports' damping by the brakes; empty where there is none
+  std::optional<axes::ShareMap> share;  // of the ports' damping that the brakes make; empty if there is none
 
-  // For a field that turns: the gate that lets the brakes pay for the coupling between them, and how much of the field
-  // passes it. Without a gate the damping that is added for estimates pays for the coupling.
+  // For a field with an antisymmetric part: the gate that lets the brakes pay for the coupling between them, and how
+  // much of the field passes it. Without a gate the damping that is added for estimates pays for the coupling.
   std::optional<axes::CurlGate> gate;
   std::optional<GatePassage> passage;
-  std::string why_no_gate;  // a clause; empty where there is one, or no field that turns
+  std::string why_no_gate;  // a clause; empty if there is a gate or no need for one
 
   bool adds() const;
 
@@ -67,7 +67,7 @@ std::vector<axes::Brake> brakes_of(const AxesDevice& device);
 std::optional<axes::ShareMap> share_of(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                                        const AxesDevice& device, axes::BrakeRule rule);
 
-// The same at the centres of `side` × `side` equal parts of the workspace; empty where there is none of it.
+// The share at the centres of `side` × `side` equal parts of the workspace; empty if there is none.
 struct PlacedShare {
   axes::Pair<double> tip;  // [m]
   axes::Share share;
@@ -85,17 +85,17 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
 bool would_be_certified(const AxesNetwork& network, const std::vector<CertifiedPort>& ports, const AxesDevice& device,
                         axes::BrakeRule rule, const AxesCertificate& like);
 
-// The same by some places alone: false where one of them asks for too much. `was` is the device of `like`.
+// A quick check at some places only: false if one of them asks for too much. `was` is the device of `like`.
 bool may_be_certified(const AxesNetwork& network, const std::vector<CertifiedPort>& ports, const AxesDevice& device,
                       axes::BrakeRule rule, const AxesCertificate& like, const AxesDevice& was);
 
-// Why not, as one clause.
+// Why the law is not certified, as one clause.
 std::string why_not_certified(const AxesCertificate& certificate, const AxesDevice& device);
 
 // One or more lines on what is proved.
 std::vector<std::string> passivity_lines(const AxesCertificate& certificate, const AxesDevice& device);
 
-// The same, and what the encoders' steps bring in, where that is known of them.
+// The same lines, and what is known of the energy that the encoders' steps bring in.
 std::vector<std::string> explained_lines(const AxesCertificate& certificate, const AxesDevice& device);
 
 }  // namespace dashpot::compiler

@@ -14,7 +14,7 @@ class BoxEnergy : private BoxNumbers {
   explicit BoxEnergy(const UpdateLaw& law)
       : BoxNumbers(*law.tunable), scalar_(law.scalar), period_(law.sample_period) {}
 
-  // Every relaxation gives no more work than its spring stores, wherever it is in the box.
+  // Whether no relaxation gives more work than its spring stores, for all parameters in their ranges.
   bool relaxations_give_no_energy() const {
     return std::all_of(tables_.parts.begin(), tables_.parts.end(), [&](const BlockPart& part) {
       if (part.kind != PartKind::relaxation) return true;
@@ -27,12 +27,12 @@ class BoxEnergy : private BoxNumbers {
   }
 
  private:
-  // a² + (1 − φ)² ≤ 1, with a = 1 − α: of emitted constants, exactly.
+  // a² + (1 − φ)² ≤ 1, with a = 1 − α: checked exactly for emitted constants.
   static bool gives_no_energy(const Rational& loss, const Rational& share) {
     return loss * (2 - loss) >= (1 - share) * (1 - share);
   }
 
-  // The same of any x = λh between two ends, for the α and φ that the law works out, off by 64 units of roundoff at
+  // The same for every x = λh between two ends, with the α and φ that the law computes, off by 64 units of roundoff at
   // most. α rises with x and φ falls: on an interval the least α stands against the least φ. Below 1e-9, α > x/2 and 1
   // − φ < x; beyond 700, α = 1 in double.
   bool exact_gives_no_energy(double low, double high) const {
@@ -45,7 +45,7 @@ class BoxEnergy : private BoxNumbers {
   }
   static constexpr double interval_ = 1.05;
 
-  // k h/B, for intervals whose ends need not be sharp
+  // k h/B, for the ends of intervals; they need not be sharp
   double ratio(const Rational& stiffness, const Rational& damping) const {
     return damping > 0 ? Rational(stiffness * period_ / damping).convert_to<double>()
                        : std::numeric_limits<double>::infinity();

@@ -10,7 +10,7 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double largest_hold = 0.5462;  // ψ of the exact scheme, at kT/b = 1.65
+constexpr double largest_hold = 0.5462;  // largest ψ of the exact scheme, at kT/b = 1.65
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 class Held : private BoxNumbers {
@@ -40,7 +40,7 @@ class Held : private BoxNumbers {
     return std::any_of(f.factors.begin(), f.factors.end(), [](const Rational& factor) { return factor != 0; });
   }
 
-  // All rise with k and with b, but the last, which is b/T.
+  // All of these rise with k and with b; the last one is b/T.
   HeldRelaxation relaxation(const BlockPart& part) const {
     const Affine spring = stiffness(part.spring);
     const double k = largest(spring), b = largest(number(part.damping));

@@ -21,23 +21,23 @@
 namespace dashpot::compiler {
 
 struct HeldRelaxation {
-  double hold;       // most of k ψ [N/m]
-  double turning;    // most of k (1 − aφ)/(1 − a²) [N/m]
-  double turned;     // most of k/2(1 − a²); infinite where nothing relaxes within a sample [N/m]
-  double stiffness;  // k; infinite where it can be tuned [N/m]
-  double per_way;    // most of kφ/(1 − a): its largest force over the largest |Δw| of a sample [N/m]
+  double hold;       // largest k ψ [N/m]
+  double turning;    // largest k (1 − aφ)/(1 − a²) [N/m]
+  double turned;     // largest k/2(1 − a²); infinite if nothing relaxes within a sample [N/m]
+  double stiffness;  // k; infinite if it can be tuned [N/m]
+  double per_way;    // largest kφ/(1 − a): its largest force over the largest |Δw| of a sample [N/m]
 };
 
 struct BoxHold {
-  double static_stiffness = 0;              // k0 at most [N/m]
-  double static_slack = 0;                  // d, of the law; 0 where its rest length never moves [m]
-  std::vector<HeldRelaxation> relaxations;  // of what joins tool and ground without a slip
-  double yield_forces = 0;                  // Σ Y at most [N]
-  bool has_meshes = false;                  // of whose inner springs nothing is known here
-  bool can_soften = false;                  // some spring, wherever it is
+  double static_stiffness = 0;              // largest k0 [N/m]
+  double static_slack = 0;                  // d, the law's largest change; 0 if its rest length never moves [m]
+  std::vector<HeldRelaxation> relaxations;  // those between tool and ground without a slip
+  double yield_forces = 0;                  // largest Σ Y [N]
+  bool has_meshes = false;                  // nothing is known here of their inner springs
+  bool can_soften = false;                  // some spring can become softer
 };
 
-// Of a law with tunables, before its map and its shedding are written. `sheds`: whether it will shed.
+// In: a law with tunables, before its map and its shedding are written; `sheds`: whether it will shed.
 BoxHold box_hold(const UpdateLaw& law, bool sheds);
 
 }  // namespace dashpot::compiler

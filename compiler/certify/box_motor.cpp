@@ -9,7 +9,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// What a cut holds: springs' and modes' β, and b∞.
+// The sums over a cut: β of springs and modes, and b∞.
 struct BoxCut {
   Affine stiffness, damping;
 };
@@ -34,7 +34,7 @@ class Box : private BoxNumbers {
           "bounds that over the ranges of the parameters; with a brake whose damping does not change, as with "
           "--decomposition 0, there is a bound");
     const Affine asked = needed();
-    std::optional<Rational> worst;  // below 0 where more is there than is needed
+    std::optional<Rational> worst;  // below 0 if there is more than is needed
     Rational least_brake = std::max(Rational(0), least(brakes.front())), largest_brake = 0, largest_gain = 0;
     for (const Affine& brake : brakes) {
       least_brake = std::min(least_brake, std::max(Rational(0), least(brake)));
@@ -77,7 +77,7 @@ class Box : private BoxNumbers {
     return tables_.fixed[static_cast<std::size_t>(part.spring)];
   }
 
-  // ψ of a relaxation, that of the worst where it can be tuned.
+  // ψ of a relaxation; the largest possible one if it can be tuned.
   Rational hold_of(const BlockPart& part) const {
     if (fixed(part)) return Rational(relaxation_hold(fixed(part)->share, fixed(part)->loss));
     return tables_.is_exact ? Rational(largest_relaxation_hold) : half_;
@@ -106,14 +106,14 @@ class Box : private BoxNumbers {
     return most(cut.stiffness) * period_ * squared_lateness() + most(cut.damping);
   }
 
-  // No softer than the law makes blocks behind slips.
+  // The cut of a block behind slips, which the law keeps above a smallest stiffness.
   BoxCut bounded_cut(int block) const {
     BoxCut cut = cut_of(tables_.blocks[static_cast<std::size_t>(block)]);
     cut.stiffness.base += Rational(tables_.least_share) * 2 * (most(cut.stiffness) + most(cut.damping) / period_);
     return cut;
   }
 
-  // As least_cut() of a tree, by what a cut asks for at the box's far corner.
+  // The least cut of a tree, compared by what it asks for with every parameter at its largest.
   std::optional<BoxCut> least_cut(const TunableCoupling& coupling, int index) const {
     const slip_node<double>& node = node_of(coupling, index);
     if (node.kind == slip_part::slip) return std::nullopt;
@@ -127,11 +127,11 @@ class Box : private BoxNumbers {
     return node.kind == slip_part::series ? least : sum;
   }
 
-  // Of slips in no tree the least of all ways to take ends to the tool's side, no slip between the sides. There is one:
-  // no path of slips alone joins tool and ground.
+  // For slips in no tree: the least of all ways to choose which ends are on the tool's side, with no slip between the
+  // sides. There is one, since no path of slips alone joins tool and ground.
   BoxCut least_cut(const TunableGraph& graph) const {
     std::vector<BoxCut> cuts;
-    std::vector<double> costs;  // rounded: any cut will do, if not quite the least
+    std::vector<double> costs;  // rounded: any cut proves a bound, even if it is not quite the least
     for (int i = 0; i < graph.tie_count; ++i) {
       cuts.push_back(bounded_cut(graph.first_block + i));
       costs.push_back(cost(cuts.back()).convert_to<double>());
@@ -165,15 +165,15 @@ class Box : private BoxNumbers {
     return tables_.ties[static_cast<std::size_t>(graph.first_tie) + i];
   }
 
-  // T_max β lateness² + b∞(cut) T_max/h. Dampers that join tool and ground are the brake's; those of a mesh as far as
-  // none of its nodes is between.
+  // T_max β lateness² + b∞(cut) T_max/h. Dampers that join tool and ground directly are the brake's,
+  // also within a mesh.
   Affine needed() const {
     BoxCut cut;
     for (const BlockPart& part : parts_of(tables_.blocks.front()))
       if (part.kind != PartKind::damper) cut = plus(cut, cut_of(part));
     for (const TunableCoupling& coupling : tables_.couplings) cut = plus(cut, least_cut(coupling, 0).value());
     for (const TunableGraph& graph : tables_.graphs) cut = plus(cut, least_cut(graph));
-    const Rational margin = 1 + 64 * Rational(unit_roundoff(scalar_));  // of the numbers that set() works out
+    const Rational margin = 1 + 64 * Rational(unit_roundoff(scalar_));  // for rounding in what set() computes
     const Affine all = plus(plus({}, cut.stiffness, period_ * squared_lateness()), cut.damping);
     return plus({}, all, loop_.hold * margin);
   }
@@ -191,7 +191,7 @@ class Box : private BoxNumbers {
       if (part.kind == PartKind::mesh) sum = plus(sum, cut_at_port(part).damping);
     return sum;
   }
-  // Z(0) of what is no mesh.
+  // Z(0) without the meshes.
   Affine zero_frequency() const {
     Affine sum = feedthrough();
     for (const BlockPart& part : parts_of(tables_.blocks.front()))
@@ -204,7 +204,7 @@ class Box : private BoxNumbers {
         parts_of(tables_.blocks.front()), [](PartKind kind) { return kind == PartKind::mesh; }, &BlockPart::kind);
   }
 
-  // No regime has more b∞ than all dampers behind slips, and meshes theirs at the port.
+  // Upper bound of b∞ in any regime: all dampers behind slips, and those of meshes at the port.
   Rational largest_behind_slips() const {
     Rational sum = 0;
     for (std::size_t i = 1; tables_.head.slip_rule.takes_part && i < tables_.blocks.size(); ++i)
@@ -212,14 +212,14 @@ class Box : private BoxNumbers {
     return sum;
   }
 
-  // Of a brake on its way, what the motor makes up at most.
+  // The most damping that the motor adds while the coil lags.
   Rational make_up(const std::vector<Affine>& brakes, const Rational& behind_slips) const {
     Rational largest = 0;
     for (const Affine& brake : brakes) largest = std::max(largest, most(brake));
     return std::min(behind_slips, Rational(Rational(tables_.brake.assured_share) * largest));
   }
 
-  // The rule's functions, and the brake's reach. Empty where the rule looks into a mesh.
+  // The functions that the brake's rule chooses from, and the brake's limit. Empty if the rule depends on a mesh.
   std::vector<Affine> brake_choices() const {
     const TunableBrake& rule = tables_.brake;
     std::vector<Affine> choices;
@@ -242,8 +242,8 @@ class Box : private BoxNumbers {
     return choices;
   }
 
-  // Σ|h_j| of a block: k, 2 c ≤ 2 k of a relaxation, and of a mesh no more than twice what its edges at the port answer
-  // within a sample, as its inner nodes held fast would.
+  // Bound of Σ|h_j| of a block: k for a spring, 2 c ≤ 2 k for a relaxation, and for a mesh twice the stiffness of its
+  // edges at the port with the inner nodes held fast.
   Affine gain_of(const TunableBlock& block, bool with_dampers) const {
     Affine sum;
     for (const BlockPart& part : parts_of(block)) {
@@ -266,8 +266,8 @@ class Box : private BoxNumbers {
     return tables_.nodes[static_cast<std::size_t>(coupling.first_node + index)];
   }
 
-  // What one of its slips alone holds while none gives way: the least yield force over the box, of the strongest such
-  // slip. Empty where it does not hold rigidly.
+  // If a slip alone joins the ends, so that the part is rigid while none gives way: the least yield force, over the
+  // box, of the strongest such slip. Empty if the part is not rigid.
   std::optional<Rational> hold_of(const TunableCoupling& coupling, int index) const {
     const slip_node<double>& node = node_of(coupling, index);
     if (node.kind == slip_part::block) return std::nullopt;
@@ -292,8 +292,8 @@ class Box : private BoxNumbers {
     return all_hold ? weakest : std::nullopt;
   }
 
-  // Of one block in series with what holds rigidly; empty for anything else, and where the encoder's step makes a slip
-  // give way.
+  // K of one block in series with a rigid part; empty for anything else, and if the encoder's step makes a slip give
+  // way.
   std::optional<Rational> gain_of(const TunableCoupling& coupling) const {
     const slip_node<double>& root = node_of(coupling, 0);
     if (root.kind != slip_part::series) return std::nullopt;
@@ -316,13 +316,13 @@ class Box : private BoxNumbers {
       carried_by_slip = carried_by_slip || kind == slip_part::slip;
       holds = holds && *hold >= of_step;
     }
-    // At places of the box where a slip in series yields within a step, no more is left than that; with one such slip
-    // alone.
+    // Where parameters let a slip in series yield within a step, the force is no more than its yield force; this holds
+    // if there is only one such slip.
     const bool is_motors = !tables_.head.slip_rule.takes_part || most(cut_of(only).damping) == 0;
     return holds || (carried_by_slip && root.child_count == 2 && is_motors) ? std::optional(largest) : std::nullopt;
   }
 
-  // K at the worst place of the box, between changes. Not bounded where slips meet in no tree.
+  // K for the worst parameters, between changes. Not bounded if slips meet in no tree.
   std::optional<double> quantisation_gain(const std::vector<Affine>& brakes, const Rational& made_up) const {
     if (!tables_.graphs.empty()) return std::nullopt;
     Rational sum = most(gain_of(tables_.blocks.front(), false));
@@ -340,7 +340,7 @@ class Box : private BoxNumbers {
     return ceiling(sum * (1 + 64 * Rational(unit_roundoff(scalar_))));
   }
 
-  // |b∞ − b| is one of these or less.
+  // |b∞ − b| is at most the largest of these.
   std::vector<Affine> gains(const Affine& brake) const {
     const Affine difference = plus(feedthrough(), brake, -1);
     return {plus(difference, of_meshes()), plus({}, difference, -1)};
@@ -358,7 +358,7 @@ double relaxation_hold(double share, double loss) {
   const Rational phi(share), alpha(loss);
   const Rational a = 1 - alpha, A = alpha * (2 - alpha) / 2, B = a * (1 - phi), C = phi - phi * phi / 2;
   const Rational determinant = A * C - B * B / 4;
-  // What vanishes within a sample answers once, with k φ.
+  // A relaxation that vanishes within a sample has a force only once, with k φ.
   if (!(determinant > 0)) return std::max(share, largest_relaxation_hold);
   return ceiling((alpha * alpha * C + alpha * phi * B + phi * phi * A) / (4 * determinant));
 }

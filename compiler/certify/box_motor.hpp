@@ -24,16 +24,16 @@
 namespace dashpot::compiler {
 
 struct BoxMotor {
-  double lacking = 0;      // max over the box of what is needed less the assured share of b [N·s/m], not below it
-  double least_brake = 0;  // min b over the box [N·s/m], not above it
+  double lacking = 0;      // upper bound of what is needed less the assured part of b, over the box [N·s/m]
+  double least_brake = 0;  // lower bound of b over the box [N·s/m]
   double largest_brake = 0;
-  std::string hindrance;                         // why nothing is proved; empty where something is
-  std::optional<double> quantisation_gain = {};  // K over the box, not below it (quantisation.hpp) [N/m]
-  double needed = 0;        // max over the box without what the estimate costs [N·s/m], not below it
-  double largest_gain = 0;  // largest gain from the estimate to the motor's force [N·s/m]
+  std::string hindrance;                         // why nothing is proved; empty if something is
+  std::optional<double> quantisation_gain = {};  // upper bound of K over the box (quantisation.hpp) [N/m]
+  double needed = 0;                             // upper bound over the box, without the cost of the estimate [N·s/m]
+  double largest_gain = 0;                       // largest gain from the estimate to the motor's force [N·s/m]
 };
 
-// `hold`: T_max/h; `lateness` as in slip_motor.hpp; `gain`: γ of the estimate, empty where nothing is known of it;
+// `hold`: T_max/h; `lateness` as in slip_motor.hpp; `gain`: γ of the estimate, empty if it is not known;
 // `share`: of the brake's command that is assured.
 struct BoxLoop {
   Rational hold;
@@ -44,13 +44,13 @@ struct BoxLoop {
   double encoder_step = 0;           // [m]
 };
 
-// Of a law with tunables.
+// In: a law with tunables.
 BoxMotor box_motor(const UpdateLaw& law, const BoxLoop& loop);
 
-// The energy lemma at every point of the box, of the law's own storage.
+// Checks the energy lemma at every point of the box, with the law's own stored energy.
 EnergyLemma check_energy_lemma_over_box(const UpdateLaw& law);
 
-// ψ of a relaxation that keeps `decay` = a of its force and takes `share` = φ of its spring, not below it.
+// Upper bound of ψ of a relaxation with φ = `share` and 1 − a = `loss`.
 double relaxation_hold(double share, double loss);
 
 inline constexpr double largest_relaxation_hold = 0.57;  // of the exact scheme, over all λh

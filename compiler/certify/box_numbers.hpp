@@ -26,12 +26,12 @@ class BoxNumbers {
   std::span<const BlockPart> parts_of(const TunableBlock& block) const {
     return std::span(tables_.parts).subspan(std::size_t(block.first_part), std::size_t(block.part_count));
   }
-  // What its slip may hold, of which the least counts.
+  // The numbers whose least is the slip's yield force.
   std::span<const int> cuts_of(const TunableYield& yield) const {
     return std::span(tables_.cuts).subspan(std::size_t(yield.first_cut), std::size_t(yield.cut_count));
   }
 
-  // Over the box.
+  // The largest and the smallest value over the box.
   Rational most(const Affine& f) const { return extreme(f, true); }
   Rational least(const Affine& f) const { return extreme(f, false); }
 

@@ -47,9 +47,9 @@ PassivityBound within_range(PassivityBound bound) {
   return std::isfinite(bound.needed) ? bound : not_proved("the damping that it needs is beyond what a double can hold");
 }
 
-// The bounds of two parts of a motor add up. The law is invariant per sample, and so is the estimate, which divides by
-// the nominal period: a hold's work m Δu is the same whatever the clock did, and a damper returns b Δu²/T_max or more.
-// So without lag the bound is that of the longest hold, T_max/h times that of a punctual loop.
+// The bounds of two parts of a motor add up. The law counts in samples, and so does the estimate, which divides by the
+// nominal period: the work m Δu of a hold does not depend on how long the hold lasts, and a damper takes b Δu²/T_max or
+// more. So without lag the bound is that of the longest hold: T_max/h times that of a punctual loop.
 PassivityBound sampled_statement(const MotorConstants& motor, const SampledLoop& loop,
                                  const EstimatorFactors& estimator, double besides, std::size_t terms) {
   const SampledBound found = sampled_bound(NeededDamping(motor, loop, estimator), loop.sample_period, terms);
@@ -75,7 +75,7 @@ PassivityBound hold_statement(const MotorConstants& motor, const SampledLoop& lo
   return within_range(bound);
 }
 
-// A slew that is fast enough costs damping as an amplifier's lag does; with one that is not, nothing is proved.
+// A motor that slews fast enough costs damping as an amplifier's lag does; if it is too slow, nothing is proved.
 PassivityBound with_slew(PassivityBound bound, const MotorConstants& motor, const SampledLoop& loop) {
   if (loop.motor_slew == 0 || bound.proof == Proof::none || motor.is_idle()) return bound;
   if (loop.amplifier_lag > 0) return not_proved("the amplifier lags, and its slew is limited");
@@ -111,7 +111,7 @@ double sum_above(double x, double y, ScalarType scalar) {
   return static_cast<double>(nearest);
 }
 
-// Of a motor that gives at once what it is asked for.
+// The bound for a motor that makes its command at once.
 PassivityBound prompt_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop, std::size_t terms) {
   PassivityBound bound;
   if (!motor) {
@@ -225,7 +225,8 @@ double unpaid_force(const Certificate& certificate) {
 
 namespace {
 
-// Every operation of a step is off by a unit of its result, which is no larger than the sum of the terms' sizes.
+// Each operation of a step rounds by one unit of its result at most; no result is larger than the sum of the terms'
+// sizes.
 double rounding_of_step(const UpdateLaw& law, std::initializer_list<const std::vector<Statement>*> programs) {
   std::size_t operations = 0;
   for (const std::vector<Statement>* program : programs) {
@@ -235,7 +236,7 @@ double rounding_of_step(const UpdateLaw& law, std::initializer_list<const std::v
   return law.relative_error_bound + unit_roundoff(law.scalar) * double(operations);
 }
 
-// What is lacking at the worst place of the box, as a need against the least brake.
+// The damping lacking for the worst parameters, stated as what is needed while the brake has its least command.
 PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
   if (!box.hindrance.empty()) return not_proved(box.hindrance);
   if (loop.may_overtake()) return not_proved(overtaken);
@@ -252,8 +253,8 @@ PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
   return bound;
 }
 
-// Part by part, or, behind an amplifier's lag, of all parts together sample by sample, where that asks for no more: it
-// holds at the motor's limit too.
+// The bound part by part. Behind an amplifier's lag, the bound of all parts together, sample by sample, is taken if it
+// asks for no more, since it holds at the motor's limit too.
 PassivityBound bound_with_slips(const PassivityBound& beside, const MotorConstants& linear, const SlipMotor& slips,
                                 const SampledLoop& loop) {
   PassivityBound bound = with_slips(beside, slips, loop);
@@ -282,7 +283,7 @@ BoxMotor box_of(const UpdateLaw& law, const SampledLoop& loop) {
                          estimate_pulse(loop), loop.encoder_step});
 }
 
-// A brake command that changes is a sum whose rounding is not known exactly: allows for it.
+// Lower bound of the command: one that changes is a sum, whose rounding is allowed for.
 double surely_told(const UpdateLaw& law) {
   return law.brake_changes() ? law.damping * (1 - 8 * unit_roundoff(law.scalar)) : law.damping;
 }
@@ -304,7 +305,7 @@ double add_missing(UpdateLaw& law, const PassivityBound& bound, const SampledLoo
   return added;
 }
 
-// The bound, what is added for it, and whether that is enough. `known`: the bound, where it is.
+// The certificate: the bound, what is added for it, and whether that is enough. `known`: the bound, if it is known.
 Certificate decided(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips,
                     const std::optional<PassivityBound>& known) {
   Certificate result;
@@ -319,8 +320,8 @@ Certificate decided(UpdateLaw& law, const SampledLoop& loop, const std::optional
   return result;
 }
 
-// The same of a law with tunables. What is added to b leaves b less of the brake's reach, and the motor more: found in
-// a few rounds, or not.
+// The same for a law with tunables. What is added leaves b less of the brake's range, so that the motor makes more and
+// more must be added: a few rounds find the balance, or there is none.
 Certificate decided_over_box(UpdateLaw& law, const SampledLoop& loop, bool has_slips) {
   Certificate result;
   result.loop = loop;
@@ -355,7 +356,7 @@ Certificate decided_over_box(UpdateLaw& law, const SampledLoop& loop, bool has_s
   return result;
 }
 
-// What is told beside: of energy between samples, the encoder's steps and the motor's limits.
+// Fills in the rest of the certificate: energy between samples, the encoder's steps and the motor's limits.
 void look_beyond_bound(Certificate& result, const UpdateLaw& law, const std::optional<SlipMotor>& slips) {
   const SampledLoop& loop = result.loop;
   const std::optional<MotorConstants> motor = motor_constants(law);

@@ -26,7 +26,7 @@ struct PassivityBound {
   Proof proof = Proof::none;
   double needed =
       0;  // S or β T_max, not below it; where nothing is proved, what would have to be there for it, or 0 [N·s/m]
-  double frequency = 0;       // that binds [Hz]; 0 where none does
+  double frequency = 0;       // at which most is needed [Hz]; 0 if the proof is not over frequencies
   std::string reason;         // why nothing is proved, or why it is not the hold certificate; one clause
   bool any_regime = false;    // with slips or a contact: whatever slides, sticks, touches or lets go
   bool any_value = false;     // with tunables: wherever they are in their ranges
@@ -42,13 +42,13 @@ struct Certificate {
   SampledLoop loop;
   PassivityBound bound;
   double assured = 0;  // lower bound of the physical damping at the tool under the emitted brake command [N·s/m]
-  double minimum_damping = 0;  // the least that must be added to the brake, uncompensated, before anything is [N·s/m]
-  double added_damping = 0;    // what has been added [N·s/m]
+  double minimum_damping = 0;  // the least damping that must be added to the brake, uncompensated [N·s/m]
+  double added_damping = 0;    // the damping that has been added [N·s/m]
   bool certified = false;      // assured ≥ needed, compared exactly
   EnergyLemma energy;
   MotorLimits limits;                 // of the motor; all of the above assumes a motor that gives what it is asked for
   double quantisation_stiffness = 0;  // 2 f_c/Δ [N/m]; 0 where the encoder's step or the friction is not stated
-  std::optional<double> quantisation_gain;  // K, which friction pays for up to 2 f_c/Δ [N/m]; empty: not bounded
+  std::optional<double> quantisation_gain;  // K; friction covers it up to 2 f_c/Δ [N/m]; empty: not bounded
 };
 
 // (K Δ/2 − f_c)⁺: the energy that the encoder's step may bring in, beyond friction, for each metre of travel [N].
@@ -58,7 +58,7 @@ double unpaid_force(const Certificate& certificate);
 // constant period only" or "not certified".
 std::string_view grade_of(const Certificate& certificate);
 
-// Why not, with the number that is missing, as one clause.
+// Why the law is not certified, with the number that is missing, as one clause.
 std::string why_not_certified(const Certificate& certificate, motion port_motion);
 
 // In: a law's constants, the loop around it. Out: the strongest statement that covers them. With fewer `terms` than
@@ -92,7 +92,7 @@ Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional
 // motor.
 Certificate certify_in_search(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips);
 
-// Of a law with a number that is not finite, which is not emitted.
+// For a law with a number that is not finite: it is not emitted.
 Certificate beyond_numbers(const SampledLoop& loop);
 
 // One or more lines on what is proved; `unit` of a damping.

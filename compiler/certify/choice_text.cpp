@@ -10,8 +10,8 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double little = 0.1;  // of what the brake can give
-constexpr double same = 1e-6;   // relative: one damping
+constexpr double little = 0.1;  // share of the brake's largest damping
+constexpr double same = 1e-6;   // relative: two dampings that differ by less are one
 
 bool is_same(double x, double y) { return std::abs(x - y) <= same * std::max(std::abs(x), std::abs(y)); }
 
@@ -28,7 +28,7 @@ std::string allowance(const FaithfulChoice& choice, double tolerance, bool is_tu
       is_tunable ? " of those tried" : "", in_percent(choice.least_error), in_percent(choice.allowed_error), leeway);
 }
 
-// Of a damping that was chosen together with the law behind the slips.
+// For a damping that was chosen together with the law behind the slips.
 std::string chosen_in_runs(const FaithfulChoice& choice, double error_in_runs, bool is_tunable) {
   return fmt::format(
       " In runs around yield, in which slips give way{}, it errs by up to {} %. b was chosen by the larger of both "
@@ -38,7 +38,7 @@ std::string chosen_in_runs(const FaithfulChoice& choice, double error_in_runs, b
       in_percent(choice.allowed_error), in_percent(choice.least_error));
 }
 
-// What is gained and what it costs.
+// What the choice gains and costs against the paper's rule.
 std::string against_paper(const Candidate& choice, const Candidate& paper, const PortUnits& units) {
   if (is_same(choice.damping, paper.damping) && choice.state_input == paper.state_input)
     return "The paper's rule chooses the same.";
@@ -124,7 +124,8 @@ std::string choice_in_words(const Decomposition& decomposition, const ChosenFor&
   if (what.is_tunable && !is_within(choice.largest_error, by.allowed_error))
     text += " In the band it errs by more than that, because passivity adds more over the ranges of its parameters.";
   if (!by.certified) text += " No choice that errs so little is certified on this device.";
-  // Its row holds for the values of the file, that of the choice for all in their ranges.
+  // With tunables the two are not comparable: the paper's row is for the file's values, the choice for all in their
+  // ranges.
   const Candidate* paper = what.is_tunable ? nullptr : named(decomposition, "paper");
   if (paper) text += " " + against_paper(choice, *paper, units);
   if (const auto& moves = decomposition.moves) {

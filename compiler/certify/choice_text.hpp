@@ -8,13 +8,13 @@
 
 namespace dashpot::compiler {
 
-// What a network has beside its slips: the error over frequency is that of this part alone.
+// What a network has beside its slips: the error over frequency is computed for this part only.
 enum class Beside { no_slips, linear, nothing };
 
 // What `faithful` chose for.
 struct ChosenFor {
   PortUnits units;
-  double reach;                   // of the brake, behind a static curve where that is steepest [N·s/m]
+  double reach;                   // largest damping of the brake, behind a static curve where that is steepest [N·s/m]
   double steepest;                // the largest slope of the map of a static curve; else 1
   bool is_tunable;                // what is certified holds over the ranges of its parameters
   double zero_frequency_damping;  // Z_d(0) [N·s/m]

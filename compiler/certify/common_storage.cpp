@@ -13,7 +13,7 @@ using Matrix = Eigen::MatrixXd;
 using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
 
-// Of a few rows and columns: what large products prepare would cost more than it saves.
+// For few rows and columns: the preparation that Eigen does for large products would cost more than it saves.
 template <class Left, class Right>
 Matrix product(const Left& left, const Right& right) {
   return left.lazyProduct(right);
@@ -120,7 +120,7 @@ class Barrier {
   std::vector<std::pair<Eigen::Index, Eigen::Index>> entries_;  // of P, by rows up to the diagonal
 };
 
-// From a pair that fulfils all with room to spare towards the least b; ends below 0.
+// Starts at a pair that satisfies all inequalities strictly and lowers b as far as possible; ends early below 0.
 CommonStorage least(const std::vector<HoldInequality>& all, CommonStorage at, double excess) {
   constexpr int most_steps = 150;
   const Barrier barrier(all, at.P.rows());
@@ -149,12 +149,12 @@ CommonStorage least(const std::vector<HoldInequality>& all, CommonStorage at, do
   return at;
 }
 
-// How much is lacking in some direction; nothing, or less, where M ⪰ 0.
+// By how much M fails to be positive, in its worst direction; 0 or less if M ⪰ 0.
 double lacking(const HoldInequality& hold, const CommonStorage& at) {
   return -Eigen::SelfAdjointEigenSolver<Matrix>(matrix_of(hold, at), Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
 }
 
-// Of the states to · x.
+// The inequality in the coordinates to · x.
 HoldInequality in_coordinates(const HoldInequality& hold, const Matrix& to, const Matrix& from) {
   const Eigen::Index n = to.rows(), all = hold.constant.rows();
   Matrix back = Matrix::Identity(all, all);
@@ -162,7 +162,7 @@ HoldInequality in_coordinates(const HoldInequality& hold, const Matrix& to, cons
   return {to * hold.next * back, back.transpose() * hold.constant * back, back.transpose() * hold.damping * back};
 }
 
-// From `start` on, for these holds alone.
+// Searches from `start` on, for these holds only.
 std::optional<CommonStorage> least_for(const std::vector<HoldInequality>& holds, const CommonStorage& start,
                                        double excess) {
   const Eigen::Index n = start.P.rows();

@@ -1,7 +1,7 @@
 // One storage function for several holds: the least damping b for which a single P serves all of them. With one hold a
 // Riccati equation has the answer; with several it is a semidefinite program, solved here by Newton's method along the
-// central path of its logarithmic barrier (Boyd & Vandenberghe 2004, chapter 11). Nothing of it has to be believed:
-// what is found is rounded and checked with integers.
+// central path of its logarithmic barrier (Boyd & Vandenberghe 2004, chapter 11). The search need not be trusted: its
+// result is rounded and checked with integers.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ struct CommonStorage {
   Eigen::MatrixXd P;
 };
 
-// Whether P ≻ 0 and M ≻ 0, as doubles tell.
+// Whether P ≻ 0 and M ≻ 0, as computed in doubles.
 bool serves(const HoldInequality& hold, const CommonStorage& tried);
 
 // In: a positive definite P, which need not satisfy the inequality of any hold, and a b that is large enough for some

@@ -14,9 +14,9 @@ namespace {
 using axes::Pair;
 using axes::Symmetric;
 
-constexpr int gate_places_a_side = 40;     // of the workspace, where ω is chosen and what passes is told
-constexpr double for_rounding = 1e-6;      // of the allowances: of a law in float32 too
-constexpr double share_in_reserve = 0.02;  // of the least allowance
+constexpr int gate_places_a_side = 40;     // parts of the workspace along each side, for choosing ω and for reports
+constexpr double for_rounding = 1e-6;      // share of the allowances kept back for rounding, enough for float32 too
+constexpr double share_in_reserve = 0.02;  // share of the least allowance
 
 // [[p, r + σ], [r − σ, s]] in the coordinates of the two brakes.
 template <typename S>
@@ -27,7 +27,7 @@ axes::JointField<S> along_brakes(const AxesDevice& device, const Pair<S>& joints
   return {p, r, s, S(axes::dot(axes::turned(dual[0]), dual[1])) * there.sigma};
 }
 
-// What brakes make of it, by `diagonal`.
+// What the brakes make of it by the rule `diagonal`.
 template <typename S>
 Pair<S> made_of(const axes::JointField<S>& field, const AxesDevice& device, const std::vector<double>& added) {
   using std::max;
@@ -35,7 +35,8 @@ Pair<S> made_of(const axes::JointField<S>& field, const AxesDevice& device, cons
           within_brake(max(field.s, S(0)), device.brakes[1].brake, added[1])};
 }
 
-// Without a workspace, where the tip is what is measured, all that the field is anywhere is over its knots.
+// The box to look at: the workspace. Without one the tip itself is measured; the field then takes all its values over
+// its knots.
 axes::Box room_of(const AxesDevice& device, const axes::ViscousField& viscous) {
   if (device.workspace[0].width() > 0 || viscous.is_uniform()) return device.workspace;
   axes::Box room;
@@ -50,7 +51,7 @@ std::vector<axes::Place> gate_places(const AxesDevice& device, const axes::Visco
   return axes::places_in(device.arm, room, gate_places_a_side);
 }
 
-// Not above the least over the workspace, and not below nine tenths of it.
+// A lower bound of the least allowance over the workspace, at least nine tenths of it.
 double least_allowance(const Pair<double>& factor, const AxesDevice& device, const std::vector<double>& added,
                        const axes::ViscousField& viscous) {
   double attained = axes::infinity;
@@ -128,7 +129,7 @@ std::optional<axes::CurlGate> curl_gate(const AxesDevice& device, const std::vec
   for (const device_description& joint : device.joints) {
     const EstimateMemory memory = *estimate_memory(loop_of_joint(joint));
     gate.gain = std::max(gate.gain, memory.gain);
-    // What moves between two samples may do so under the command before as well, where commands act late.
+    // If commands act late, the movement between two samples may also happen under the command before.
     const double delay = double(device.loop().delay_samples) + (device.loop().write_latest > 0 ? 1 : 0);
     age = std::max(age, memory.age + memory.gain * delay);
   }

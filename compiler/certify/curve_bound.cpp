@@ -19,21 +19,22 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double margin = 1 + 1e-9;  // of sums in double, some thousand terms of them
+constexpr double margin = 1 + 1e-9;  // for rounding of sums in double with some thousand terms
 constexpr int stretches_of_cell = 8;
 
-// How long a brake's coil may have had, in its time constants: a bound holds for each, and the best is taken.
+// Times that a brake's coil may have had to follow, in its time constants: the bound is computed for each, the best is
+// taken.
 std::span<const double> coil_times(double coil_lag) {
   static constexpr double lagging[] = {1, 2, 4, 8}, prompt[] = {0};
   return coil_lag > 0 ? std::span<const double>(lagging) : std::span<const double>(prompt);
 }
 
-// How far the tool goes within a hold, and what a delay adds to it.
+// How far the tool moves within a hold and the delay.
 double reach_of_hold(const SampledLoop& tool) {
   return tool.tool_speed * tool.longest_hold() * (1.0 + tool.delay_samples);
 }
 
-// On both sides of where the curve begins it is the same.
+// The curve is the same on both sides of its start.
 double flattest_within(const MotionMap& map, double from, double to) {
   if (from < 0) return map.least_tangent(0, std::max(to, -from));
   return map.least_tangent(from, to);
@@ -55,34 +56,34 @@ std::string hindrance(bool estimate_drives_modes, const std::optional<SlipMotor>
   return "";
 }
 
-// What the motor behind the map holds at most, and what holding it costs while the map bends.
+// Bounds of the forces that the motor holds behind the map, and what holding them costs while w′ changes.
 struct HeldForces {
   struct Relaxing {
     double decay;    // a
-    double turning;  // over the tool's displacement squared: turn (turning w′ + turned turn), turn = ½ |w″| r
+    double turning;  // cost per squared displacement of the tool: turn (turning w′ + turned turn), turn = ½ |w″| r
     double turned;   // infinite where nothing relaxes
-    double per_way;  // of its force, over how far in w the tool has been from here at most; infinite: unknown
-    double largest;  // of its force [N]; infinite: unknown
-    double leaving;  // of a contact that lets go [N/m]
+    double per_way;  // largest force over the largest distance in w from here; infinite: unknown
+    double largest;  // largest force [N]; infinite: unknown
+    double leaving;  // for a contact that ends [N/m]
   };
 
   double static_stiffness = 0;  // k0 [N/m]
-  double static_slack = 0;      // d, from which on it lets go; 0 where it is at rest where w is 0 [m]
+  double static_slack = 0;      // d, beyond which it gives up force; 0 if it is always at rest at w = 0 [m]
   double step_stiffness = 0;    // Σ c_i; with tunables `relaxing` has it all [N/m]
-  double unsettled = 0;         // of the step stiffness, what is no mode's
+  double unsettled = 0;         // the part of the step stiffness that belongs to no mode
   double besides = 0;           // Σ Y [N]
   std::vector<Relaxing> relaxing;
-  bool is_stepwise = false;  // without delay, of springs and slips behind them: each step obeys its own inequality
+  bool is_stepwise = false;  // no delay, only springs and slips behind them: each step obeys an inequality of its own
   bool is_tunable = false;
 
-  // Of relaxations over a stretch whose places are in w no further than `way` from others.
+  // Largest force of the relaxations, if the tool has been no further away in w than `way`.
   double of_relaxing(double way) const {
     if (!is_tunable) return step_stiffness * way;
     double sum = 0;
     for (const Relaxing& mode : relaxing) sum += std::min(mode.per_way * way, mode.largest);
     return sum;
   }
-  // `change`: of w in the sample before, at most.
+  // Largest force of the static spring; `change`: the largest change of w in the sample before.
   double of_static_spring(double w, double change) const {
     if (static_slack == 0) return static_stiffness * w;
     return static_stiffness * std::max(w + 2 * change, 2 * static_slack + change);
@@ -110,7 +111,7 @@ HeldForces held_forces(const MotorConstants& motor, const Network& network, cons
   return held;
 }
 
-// The largest change of w between samples is that of the steepest place.
+// The largest change of w between samples is that at the steepest place.
 HeldForces held_forces(const BoxHold& box, const SampledLoop& tool, double steepest) {
   const double change = steepest * tool.tool_speed * tool.longest_hold();
   HeldForces held;
@@ -140,7 +141,7 @@ class CurveNeed {
     share_ = assured_share(tool).convert_to<double>();
   }
 
-  // S + curvature − what the brake has, at the worst place, and beside it what a lag and an estimate cost.
+  // At the worst place: S + curvature − the brake's damping; plus what a lag and an estimate cost.
   double lacking(double needed_behind, double cost_of_estimate) const {
     if (held_.is_stepwise) needed_behind = std::max(needed_behind, stiffness_ * tool_.longest_hold());
     const std::vector<double> bends = costs_of_bends();
@@ -172,7 +173,7 @@ class CurveNeed {
     return most;
   }
 
-  // Of what is held while the map bends, over Δu² [N/m].
+  // The cost of holding forces while w′ changes, over Δu² [N/m].
   double cost_of_bend(double from, double to, double steepest, double curvature, double reach) const {
     if (!held_.is_stepwise) return (0.5 + tool_.delay_samples) * force(from, to) * curvature;
     const double w = map_.value_at(to), turn = curvature * reach / 2;
@@ -187,15 +188,15 @@ class CurveNeed {
     return sum;
   }
 
-  // With tunables the static spring pulls by no more than it holds at 0, so that the curvature of a softening curve
-  // costs nothing: but not where the tool may pass the start of the curve, beyond which it is curved the other way.
+  // With tunables the static spring pulls no harder than at w = 0, so that a softening curve costs hardly anything. But
+  // where the tool may pass the start of the curve, it curves the other way, and the full force counts.
   double cost_of_static_spring(double w, double from, double to, double curvature, double change) const {
     const double most = held_.of_static_spring(w, change), pull = held_.of_static_spring(0, change);
     if (!held_.is_tunable || from == 0) return most * curvature / 2;
     return std::max(most * largest_bend(from, to, 1), pull * largest_bend(from, to, -1)) / 2;
   }
 
-  // The largest w″, or −w″; not below 0. It is straight in each cell.
+  // The largest w″ or, with sign −1, −w″; not below 0. In each cell w″ is linear.
   double largest_bend(double from, double to, double sign) const {
     double most = 0;
     for (std::size_t i = 0; i < map_.cubics(); ++i) {
@@ -208,7 +209,7 @@ class CurveNeed {
     return most;
   }
 
-  // Of a contact that lets go within the step: what is held to the end of it, gq + Σ (1 − a) F, acts on e.
+  // The cost of a contact that ends within the step: the force held to the end of the step acts on the change of w′.
   double cost_of_leaving(double steepest, double turn) const {
     double sum = (held_.static_stiffness + held_.step_stiffness + held_.unsettled) * steepest * turn;
     for (const HeldForces::Relaxing& mode : held_.relaxing) sum += mode.leaving * turn * (steepest + turn / 2);
@@ -230,7 +231,7 @@ class CurveNeed {
            held_.besides;
   }
 
-  // How far in w a place is from any other within the tool's range, which ends somewhere on either side of it.
+  // The largest distance in w between a place and any other in the tool's range, wherever that lies.
   double way_from_rest(double from, double to) const {
     if (is_one_sided_) return map_.value_at(to);
     const double across = map_.value_at(to) + map_.value_at(std::max(tool_.travel - from, 0.0));
@@ -262,7 +263,7 @@ MotorLimits limits_behind_curve(const SampledLoop& tool, const Certificate& cert
   return limits;
 }
 
-// κ γ T_max/h w′²_most of all that the motor makes of the estimate; empty where nothing is known of the estimator.
+// κ γ T_max/h w′²_most, with κ all that the motor makes of the estimate; empty if γ is not known.
 std::optional<double> cost_of_estimate(double followed, const SampledLoop& tool, double steepest) {
   if (followed == 0) return 0;
   const std::optional<double> gain = estimate_gain(tool);
@@ -277,7 +278,7 @@ std::string hindrance_of_coil(double damping, const MotionMap& map, const PortDe
   return follows ? "" : "the brake's coil does not follow the static curve at the largest speed";
 }
 
-// The whole bound: what lacks, and what the brake assures.
+// The whole bound: the damping that is lacking plus what the brake assures.
 PassivityBound lacking_beside(double lacking, double damping, const Network& network, const SampledLoop& tool) {
   if (!std::isfinite(lacking)) return not_proved(at_once);
   const MotionMap& map = *network.map;
@@ -289,7 +290,7 @@ PassivityBound lacking_beside(double lacking, double damping, const Network& net
   return network.contact ? of_a_free_tool(bound, tool) : bound;
 }
 
-// These are counted apart.
+// Lag and late writes are counted separately.
 SampledLoop without_lag(SampledLoop behind) {
   behind.amplifier_lag = behind.write_earliest = behind.write_latest = 0;
   return behind;
@@ -347,14 +348,14 @@ PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Ne
   const std::optional<double> of_estimate = cost_of_estimate(followed, tool, map.steepest());
   if (!of_estimate) return not_proved(not_proved_for(tool));
   behind = without_lag(behind);
-  behind.device_damping = std::numeric_limits<double>::max();  // what is there is compared at the tool
+  behind.device_damping = std::numeric_limits<double>::max();  // the comparison is made at the tool instead
   motor.velocity_gain = 0;
   std::optional<SlipMotor> without_estimate = slips;
   if (slips) without_estimate->compensation = 0;
   const PassivityBound bound = slips ? with_slips(bound_beside_slips(motor, *slips, behind), *without_estimate, behind)
                                      : passivity_bound(motor, behind);
   if (bound.proof == Proof::none) return bound;
-  // Behind a contact the cut is of the springs that the motor's constants have.
+  // Behind a contact the motor's constants already have the springs of the cut.
   const double of_slips = slips && !network.contact ? slips->stiffness : 0;
   const double stiffness = hold_stiffness(motor).convert_to<double>() + of_slips;
   const CurveNeed need(held_forces(motor, network, slips, tool), stiffness, damping, network, tool, stretches,
@@ -364,7 +365,7 @@ PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Ne
 
 namespace {
 
-// The same wherever parameters are in their ranges, and however they go there. Out: the law's least and largest b_w.
+// The same for all parameters in their ranges and all changes of them. Out: the law's least and largest b_w.
 PassivityBound bound_over_box(UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
                               const PortDevice& at_tool, const std::vector<CurveStretch>& stretches,
                               const SampledLoop& behind) {
@@ -386,7 +387,7 @@ PassivityBound bound_over_box(UpdateLaw& law, const Network& network, const std:
   double stiffness = held.static_stiffness / 2;
   for (const HeldRelaxation& mode : held.relaxations) stiffness += mode.hold;
   const CurveNeed need(forces, stiffness, box.least_brake, network, tool, stretches, at_tool.coil_lag());
-  const double needed = forces.is_stepwise ? 0 : box.needed;  // of a step by itself less is needed than of all together
+  const double needed = forces.is_stepwise ? 0 : box.needed;  // each step by itself needs less than all together
   PassivityBound bound = lacking_beside(need.lacking(needed, *of_estimate), box.least_brake, network, tool);
   bound.any_value = bound.over_changes = true;
   return bound;

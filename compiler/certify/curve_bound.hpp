@@ -1,7 +1,7 @@
-// What a law behind a static curve's map w needs to be passive at the tool (theory, section 11).
+// The damping that a law behind a static curve's map w needs to be passive at the tool (theory, section 11).
 //
-// Behind the map the law needs S = b T for a motion of w. What it holds acts on the displacement that comes next, over
-// which w bends: with n samples of delay
+// Behind the map the law needs S = b T for a motion of w. A held force acts during the displacement that follows, while
+// w′ changes: with n samples of delay
 //
 //     V_{k+1} − V_k ≤ f_k Δu + [S w′²/T + (½ + n) |M| |w″|] Δu²
 //
@@ -10,8 +10,8 @@
 //
 //     b_tool + share b_w w′²(least within r) ≥ S w′² + (½ + n) T |M| |w″|
 //
-// where b_tool is what is there whatever the brake is told, and the brake's coil lags: of what it is told it has
-// (1 − e^{−m})² of the least within m time constants more. A motor that lags is off by no more than
+// where b_tool is the damping that does not depend on the brake's command. The brake's coil lags: of its command it
+// makes (1 − e^{−m})² of the least within m time constants more. The force of a motor that lags is off by no more than
 // ‖e‖ ≤ (β w′²_most + ½ |M w″|_most) L ‖v‖, with L as in motor_limits.hpp; what it makes of the estimate, κ w′² v̂,
 // costs κ γ T/h w′²_most as long as ‖v̂‖ ≤ γ ‖Δu/h‖.
 //
@@ -39,9 +39,9 @@ namespace dashpot::compiler {
 // Σ Y of the slips that forces can pass through [N].
 double yield_forces(const Network& network);
 
-// A stretch of the map, with all places that the tool may come to within a hold.
+// A stretch of the map; the bounds hold for it and for all places that the tool may reach from it within a hold.
 struct CurveStretch {
-  double from, to;               // without those [m]
+  double from, to;               // the stretch itself [m]
   double steepest;               // the largest w′ [1]
   double largest_curvature;      // of |w″| [1/m]
   std::vector<double> flattest;  // the least w′ where the tool may have been, for each time of a coil [1]

@@ -7,7 +7,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// c/(1 + a) of F ← a F + c δ.
+// c/(1 + a) of a mode F ← a F + c δ.
 Real held_stiffness(const Real& stiffness, const Real& relaxation_rate, const CutSettings& settings) {
   const ModeCoefficients mode = mode_coefficients({stiffness, relaxation_rate, 1, {}}, settings.scheme,
                                                   StateInput::position, settings.sample_period);
@@ -22,7 +22,7 @@ void keep_less(std::optional<Cut>& least, const std::optional<Cut>& cut, const C
   if (cut && (!least || cost_of(*cut, settings) < cost_of(*least, settings))) least = cut;
 }
 
-// Terminals on the tool's side of a cut, the tool always, the ground never.
+// Which terminals are on the tool's side of a cut: the tool always, the ground never.
 class Sides {
  public:
   Sides(std::size_t terminals, unsigned long pattern) : tool_(terminals - 1), ground_(terminals), pattern_(pattern) {}
@@ -43,7 +43,7 @@ Cut cut_between(const MultiportForm& form, const Sides& sides, const CutSettings
   for (const Tie& tie : form.dampers)
     if (sides.separate(tie.a, tie.b)) cut.damping += tie.value;
   for (const MultiportMode& mode : form.modes) {
-    Real weight = 0;  // of the mode in the force of the tool's side
+    Real weight = 0;  // of the mode, in the force on the tool's side
     for (std::size_t i = 0; i < form.terminals.size(); ++i)
       if (sides.is_at_tool(i)) weight += mode.weights[i];
     cut.stiffness += weight * weight * held_stiffness(mode.stiffness, mode.relaxation_rate, settings);
@@ -59,7 +59,7 @@ Cut cut_of(const LinearForm& form, const CutSettings& settings) {
   return cut;
 }
 
-// In parallel every child is cut, in series one.
+// In parallel every child is cut, in series only the best one.
 std::optional<Cut> least_cut(const NormalTree& tree, const CutSettings& settings) {
   switch (tree.kind) {
     case NormalTree::Kind::block: return cut_of(tree.form, settings);

@@ -5,8 +5,8 @@
 namespace dashpot::compiler {
 namespace {
 
-// What a mode asks of the coefficient of Δu² with the weight w: w d² + (1 − 2wad)²/(4w(1 − a²)). Empty where no amount
-// would do.
+// How large a mode needs the coefficient of Δu² to be with the weight w: w d² + (1 − 2wad)²/(4w(1 − a²)). Empty if no
+// coefficient is large enough.
 std::optional<Rational> demand(const Rational& a, const Rational& d, const Rational& w) {
   const Rational skew = 1 - 2 * w * a * d, damped = w * (1 - a * a);
   if (skew == 0) return w * d * d;
@@ -23,11 +23,11 @@ EnergyLemma check_energy_lemma(const MotorConstants& motor) {
   const Rational static_excess = Rational(motor.static_stiffness) - 2 * Rational(motor.half_static_stiffness);
   Rational left = Rational(motor.half_static_stiffness) + Rational(motor.step_stiffness);
   boost::multiprecision::cpp_int asked =
-      0;  // of all modes, in steps of the grid: fractions that are kept in lowest terms are slow
+      0;  // sum over all modes, in steps of a grid: fractions in lowest terms are slow
   for (const MotorMode& mode : motor.modes) {
     const Rational a = exact_decay(motor, mode), d = mode.position_drive;
     if (d == 0) continue;
-    // c/2 is the least that any weight asks; what an emitted weight asks beyond c itself is more than rounding.
+    // c/2 is the least that any weight needs; if the emitted weight needs more than c, that is more than rounding.
     const std::optional<Rational> emitted = demand(a, d, mode.energy_weight);
     if (emitted && *emitted * a <= d) {
       asked += grid_steps_up(*emitted);

@@ -17,22 +17,22 @@ enum class EnergyStorage {
 };
 
 struct EnergyLemma {
-  bool applies = false;  // position drives every mode: others do not obey it
+  bool applies = false;  // the lemma is only for laws whose modes all follow the position
   bool holds = false;
   bool over_box = false;  // for every value of the tunables; with meshes by backward Euler, where Φ is convex
   bool with_slips =
-      false;  // or a contact: its step balances every part's force, and slips and contacts only take energy
+      false;  // slips or a contact: a step balances every part's force, and slips and contacts only take energy
   EnergyStorage storage = EnergyStorage::emitted;
   std::size_t reweighted_modes = 0;
   double shortfall = 0;  // [N/m]: V_k − V_{k−1} ≤ f_k Δu_k + shortfall·Δu²; 0 where it holds
-  // While it runs, rounding is off by at most this share of the sum of the sizes of the force's terms; the energy of a
-  // run by that force along its path.
+  // Rounding changes the force by at most this share of the sum of the sizes of its terms, and the energy of a run by
+  // that force times its path.
   double rounding_share = 0;
 };
 
 EnergyLemma check_energy_lemma(const MotorConstants& motor);
 
-// The same of a law with slips or a contact: of every part by itself, F ← a F + c δ, with w = 1/(2 a d) in the modes
+// The same for a law with slips or a contact: for every part by itself, F ← a F + c δ, with w = 1/(2 a d) in the modes
 // and 1/(2 k) in the springs, for which 0 ≤ a ≤ 1 and d ≥ 0 are enough; the sum of all parts' work is the tool's and no
 // slip gives any.
 EnergyLemma check_energy_lemma_with_slips(const MotorConstants& linear, const std::vector<MotorConstants>& parts);

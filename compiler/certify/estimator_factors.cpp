@@ -14,7 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// The numerator of E over (1 − w)/T: partial sums.
+// The numerator of E divided by (1 − w)/T: partial sums.
 EstimatorFactors moving_average(const any_estimator<double>& estimator, double sample_period) {
   const auto transfer = estimator.transfer();
   EstimatorFactors factors{{}, {}};
@@ -60,7 +60,7 @@ std::optional<EstimatorFactors> steady_kalman(const velocity_description& veloci
                                rounded(1 + half_sum, sign * imaginary), 0});
     return factors;
   }
-  // The larger first; the other by what both multiply to.
+  // The larger pole first; the other one from their product.
   const Real larger = half_sum + (half_sum < 0 ? -sqrt(square) : sqrt(square)), other = larger == 0 ? 0 : rho / larger;
   for (const Real& pole : {larger, other})
     factors.poles.push_back({rounded(pole, 0), rounded(1 - pole, 0), rounded(1 + pole, 0), 0});

@@ -1,4 +1,4 @@
-// A linear estimator held against the one-sample difference, as factors that are evaluated without cancellation:
+// A linear estimator divided by the one-sample difference, as factors that can be evaluated without cancellation:
 //     Ĝ(w) = E(z) T/(1 − w) = Σ taps[i] wⁱ · Π 1/(1 − p w) · Π κ (1 + w)/(1 − p w),    w = z⁻¹,
 // which is 1 at rest. The runtime's pulse_transfer has the same E with its denominator expanded, which cancels for slow
 // filters, and for fast ones near Nyquist; here each pole keeps its distances from 1 and from −1, and a zero at −1
@@ -47,8 +47,8 @@ class AveragedPulse {
     return value;
   }
 
-  // Not below Σ|r_j| over all that is to come once the taps are over: 1/(1 − |p|) of each pole's state and input, which
-  // a zero takes twice.
+  // Upper bound of Σ|r_j| over all samples still to come, once the taps are over: 1/(1 − |p|) of each pole's state and
+  // input; a zero doubles the input.
   double rest() const {
     double sum = 0;
     for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -60,7 +60,8 @@ class AveragedPulse {
     return sum;
   }
 
-  bool is_over() const { return place_ > estimator_.taps.size() && rest() < 1e-15; }  // of r's sum, which is 1
+  // True when what is still to come is less than 1e-15 of the sum of all r, which is 1.
+  bool is_over() const { return place_ > estimator_.taps.size() && rest() < 1e-15; }
 
  private:
   const EstimatorFactors& estimator_;
@@ -75,18 +76,18 @@ std::optional<EstimatorFactors> estimator_factors(const SampledLoop& loop);
 // Whether the estimate divides by the time between two samples, on a device whose samples are not punctual.
 bool divides_by_varying_interval(const SampledLoop& loop);
 
-// γ of ‖v̂‖₂ ≤ γ ‖Δu/T‖₂ for any motion, not below it: Σ|taps| Π 1/(1 − |p|); 1 for Butterworth's filters, which never
-// amplify; T over the shortest interval where the estimate divides by it; or that of an adaptive window. Empty where
-// nothing is known.
+// Upper bound of γ in ‖v̂‖₂ ≤ γ ‖Δu/T‖₂ for any motion: Σ|taps| Π 1/(1 − |p|); 1 for Butterworth's filters, which never
+// amplify; T over the shortest interval if the estimate divides by the interval; or that of an adaptive window. Empty
+// if nothing is known.
 std::optional<double> estimate_gain(const SampledLoop& loop);
 
-// How an estimate h v̂(k) = Σ_j e_j Δu(k + 1 − j), j = 1 …, hangs on what has been, not below it.
+// How far an estimate h v̂(k) = Σ_j e_j Δu(k + 1 − j), j = 1 …, depends on the past; upper bounds.
 struct EstimateMemory {
   double gain;  // Σ |e_j|
   double age;   // Σ |e_j| (j − 1) [samples]
 };
 
-// Empty for an estimator whose weights do not stay, and for one that remembers more than 100,000 samples.
+// Empty for an estimator whose weights change, and for one that remembers more than 100,000 samples.
 std::optional<EstimateMemory> estimate_memory(const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

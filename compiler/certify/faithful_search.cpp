@@ -11,8 +11,8 @@ namespace dashpot::compiler {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-constexpr double exactly = 1e-14, closely = 1e-10, roughly = 1e-6;  // precision of a place, relative
-constexpr std::size_t most_places = 48;                             // of one convex function
+constexpr double exactly = 1e-14, closely = 1e-10, roughly = 1e-6;  // relative precision of a place
+constexpr std::size_t most_places = 48;                             // at which one convex function is evaluated
 constexpr double fine = 1e-4;  // how well x is known before b is searched for, relative
 
 struct Ends {
@@ -20,7 +20,7 @@ struct Ends {
   double at(double share) const { return low + share * (high - low); }
 };
 
-// The least of a convex function, its ends included; left as soon as a value is at most `enough`.
+// Where a convex function is least, ends included; stops as soon as a value is at most `enough`.
 template <class Function>
 double least_place(Function f, Ends span, double enough, double precision = closely) {
   ValueAt best = golden_section(f, span.low, span.high, enough, precision);
@@ -30,7 +30,7 @@ double least_place(Function f, Ends span, double enough, double precision = clos
   return best.place;
 }
 
-// Where a convex function is at most `level`; empty where it is above it everywhere.
+// The interval where a convex function is at most `level`; empty if it is above it everywhere.
 template <class Function>
 std::optional<Ends> sublevel(Function f, Ends span, double level, double precision = exactly) {
   const ValueAt low{span.low, f(span.low)}, high{span.high, f(span.high)};
@@ -46,13 +46,13 @@ std::optional<Ends> sublevel(Function f, Ends span, double level, double precisi
               is_high ? span.high : level_boundary(f, level, inside, high, precision)};
 }
 
-// One state input with all that is asked of it at one b.
+// One state input: all that the search asks about it at a given b, remembered.
 class InputLine {
  public:
   InputLine(const SearchLine& line, const SearchReach& reach, std::optional<double> noise)
       : line_(line), reach_(reach), noise_(noise) {}
 
-  // needed less assured; infinite where nothing is proved.
+  // Needed damping less assured damping; infinite if nothing is proved.
   double lack(double damping) {
     if (const auto known = lacks_.find(damping); known != lacks_.end()) return known->second;
     const std::optional<double> needed = line_.needed(damping);
@@ -65,8 +65,7 @@ class InputLine {
   }
   double added(double damping) { return added_for(lack(damping)); }
 
-  // By how much b, what is added and a reserve are beyond the brake: convex as long as something is proved, and never
-  // infinite.
+  // By how much b, what is added and a reserve exceed the brake: convex and finite as long as something is proved.
   double excess(double damping) {
     const double room = reach_.adds ? reach_.most - reach_.besides - damping : 0;
     const double lacking = lack(damping);
@@ -92,14 +91,15 @@ class InputLine {
   std::map<double, double> lacks_;
 };
 
-// The dampings of a line, certified, whose x is followed by its chords.
+// The certified dampings b of one state input, with x approximated by its chords.
 class CertifiedPart {
  public:
   CertifiedPart(InputLine& line, Ends span) : line_(line) {
     for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) add(span.at(share));
   }
 
-  // Until chords and their prolongations agree: to a small share of x, or of the smallest x that changes the error.
+  // Adds places until chords and prolonged chords agree to a small share of x, or of the smallest x that changes the
+  // error.
   void refine(double allowed) {
     while (places_.size() < most_places) {
       std::size_t worst = 0;
@@ -113,7 +113,7 @@ class CertifiedPart {
     }
   }
 
-  // Where the error is at most `allowed`, chord by chord.
+  // The intervals of b where the error is at most `allowed`, chord by chord.
   std::vector<Ends> within(double allowed) const {
     std::vector<Ends> spans;
     for (const Chord& chord : chords())
@@ -122,7 +122,7 @@ class CertifiedPart {
     return spans;
   }
 
-  // Of the least error.
+  // The b of the least error.
   double most_faithful() const {
     double best = places_.front().damping, least = unbounded;
     for (const Chord& chord : chords()) {
@@ -160,7 +160,7 @@ class CertifiedPart {
     return (places_[i + 1].lack - places_[i].lack) / (places_[i + 1].damping - places_[i].damping);
   }
 
-  // How far below its chord the lack may lie between two places, in units of what may be overlooked.
+  // How far the lack may lie below its chord between two places, as a multiple of what may be overlooked.
   double gap_of(std::size_t i, double allowed) const {
     const Place &low = places_[i], &high = places_[i + 1];
     const double width = high.damping - low.damping;
@@ -179,7 +179,7 @@ class CertifiedPart {
     return line_.added_for(std::max(depth, 0.0)) / std::max({small, unnoticed, 1e-300});
   }
 
-  // Between neighbouring places, parted where the lack begins.
+  // The chords between neighbouring places, split where the lack becomes positive.
   std::vector<Chord> chords() const {
     std::vector<Chord> all;
     for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
@@ -251,7 +251,7 @@ class FaithfulSearch {
     return least;
   }
 
-  // The ends and b∞, and on both sides of b∞ what can be certified and what cannot.
+  // Looks at the ends and b∞, and on both sides of b∞ at the certified and the other dampings.
   void look_at(std::size_t i) {
     const double middle = reach_.feedthrough;
     keep(i, 0);
@@ -275,11 +275,11 @@ class FaithfulSearch {
     if (const std::optional<Ends> near = worth_looking(line, *fitting)) certified_.push_back({i, {line, *near}});
   }
 
-  // Where any x at all would be within the error that is allowed at most. The convex function's least is looked for
-  // over x, then over b.
+  // The span of b where some x would keep within the largest error that is allowed: the convex error is minimised over
+  // x, then searched over b.
   std::optional<Ends> worth_looking(InputLine& line, Ends span) const {
     const double reached = least_error(true);
-    if (reached == unbounded) return span;  // nothing that is certified is known yet
+    if (reached == unbounded) return span;  // no certified option is known yet
     const double allowed = allowed_error(tolerance_, reached) * leeway;
     const double most_added = std::max(line.added(span.low), line.added(span.high));  // of a convex function
     const auto least_felt = [&](double b) {
@@ -301,8 +301,8 @@ class FaithfulSearch {
     }
   }
 
-  // What is found on the way may have a little less error, or less added, than all before: the bounds are then drawn
-  // in, and the ends with them.
+  // A new option may have a little less error, or less added damping, than all before: then the bounds are tightened
+  // and the search is repeated.
   void look_until_settled(bool certified_only) {
     constexpr int most_rounds = 8;
     for (int round = 0; round < most_rounds; ++round) {
@@ -312,7 +312,7 @@ class FaithfulSearch {
     }
   }
 
-  // Returns the least added damping that it went by.
+  // Returns the least added damping that it used as its bound.
   double look_for_most_damping(double allowed) {
     for (const Rest& rest : rests_) {
       const auto error = [&](double b) { return lines_[rest.line].felt(b, 0); };
@@ -342,7 +342,7 @@ class FaithfulSearch {
     }
   }
 
-  // The largest b of each span with x small enough, then as far as what it stands for, not its chord, allows.
+  // Finds the largest b of each span with x small enough: first on the chord, then with the exact functions.
   void look_for_end(Stretch& stretch, double allowed, double most_added) {
     InputLine& line = lines_[stretch.line];
     const auto is_allowed = [&](double b) {
@@ -359,7 +359,7 @@ class FaithfulSearch {
     }
   }
 
-  // What is allowed next to `guess`, on the way to `inner`: an end of a chord's error is not quite the error's own.
+  // A place near `guess`, towards `inner`, where the claim holds: the end found on a chord is not quite the exact one.
   template <class Claim>
   static double nearest_allowed(Claim is_allowed, double guess, double inner) {
     for (double share = 0; share < 1; share = share == 0 ? 1e-9 : 4 * share) {
@@ -369,7 +369,7 @@ class FaithfulSearch {
     return guess;
   }
 
-  // The end of what is allowed, near `guess`.
+  // The exact end of where the claim holds, near `guess`.
   template <class Claim>
   static double settled_end(Claim is_allowed, double guess, double most) {
     double step = 1e-9 * guess;

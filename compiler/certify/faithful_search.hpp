@@ -33,11 +33,11 @@ struct SearchLine {
 struct SearchReach {
   double feedthrough;      // b∞
   double most;             // the brake's b and what is added to it
-  double besides = 0;      // of `most`, what the brake gives elsewhere at most
-  double assured_share;    // of b and what is added, that is certain [1]
+  double besides = 0;      // part of `most` that the brake may have to give elsewhere
+  double assured_share;    // share of b and the addition that is certain [1]
   double assured_besides;  // what is certain at b = 0
   bool adds = true;        // false behind a contact, where nothing is added
-  double reserve = 0;      // share of what is needed that its proof may need beyond it [1]
+  double reserve = 0;      // share by which the proof may need more than the bound [1]
 };
 
 struct FoundOption {
@@ -46,7 +46,7 @@ struct FoundOption {
 };
 
 struct FaithfulFind {
-  std::vector<FoundOption> options;  // those that the choice hangs on
+  std::vector<FoundOption> options;  // those that the choice depends on
   FaithfulChoice choice;
 };
 

@@ -13,7 +13,7 @@ using Complex = std::complex<double>;
 using std::numbers::pi;
 
 constexpr int felt_points_per_decade = 100;
-constexpr double beyond_measure = 1e300;  // an error that is no double [1]
+constexpr double beyond_measure = 1e300;  // stands for an error that is no finite double [1]
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 std::vector<double> logarithmic(double low, double high) {
@@ -31,7 +31,7 @@ Complex difference_at(double theta) {
   return {2 * half * half, std::sin(theta)};
 }
 
-// A canonical form rounded once: it is asked for at hundreds of frequencies.
+// A canonical form, rounded once because it is evaluated at hundreds of frequencies.
 class ClosedForm {
  public:
   explicit ClosedForm(const LinearForm& form)
@@ -55,7 +55,7 @@ class ClosedForm {
   std::vector<RoundedMode> modes_;
 };
 
-// Σ over modes of c δ/(1 − a w) and of e w/(1 − a w); c = d/a, and what is left of s and of modes with a = 0.
+// Sums over modes of c δ/(1 − a w) and e w/(1 − a w), with c = d/a; and what remains of s, and of modes with a = 0.
 struct ModeForces {
   Complex by_position, by_velocity;
 };
@@ -81,7 +81,7 @@ Complex departure(const Complex& felt, const Complex& rendered) {
   return std::abs(error) <= 8 * std::numeric_limits<double>::epsilon() * std::abs(rendered) ? Complex(0) : error;
 }
 
-// The largest that is told where it is infinite or NaN.
+// The root; beyond_measure if the square is infinite or NaN.
 double error_of(double square) {
   return square < endless ? std::min(std::sqrt(square), beyond_measure) : beyond_measure;
 }
@@ -124,7 +124,7 @@ Complex FeltError::estimate(double w, Complex difference) const {
 }
 
 FeltError::Place FeltError::place(const MotorConstants& motor, Complex rendered, Complex reference, double w) const {
-  if (reference == 0.0) return {0, 0, beyond_measure};  // where nothing is to be felt, any brake is too much
+  if (reference == 0.0) return {0, 0, beyond_measure};  // nothing should be felt, so that any brake is too much
   const double theta = w * sample_period_;
   const Complex difference = difference_at(theta), rate(0, w), estimated = estimate(w, difference);
   const Complex late = device_.motor_response(w) * difference / Complex(0, theta);
@@ -134,8 +134,8 @@ FeltError::Place FeltError::place(const MotorConstants& motor, Complex rendered,
   return {departure(late * law, rendered) / reference, -late * estimated / reference, rate / reference};
 }
 
-// All frequencies at once: a search for the best decomposition asks hundreds of thousands of times. A square is NaN or
-// infinite where what is felt is.
+// All frequencies in one loop, since a search for the best decomposition calls this hundreds of thousands of times. A
+// square is NaN or infinite if the felt force is.
 template <class Take>
 auto FeltError::of_squares(double damping, double added, Take take) const {
   using Values = Eigen::Map<const Eigen::ArrayXd>;

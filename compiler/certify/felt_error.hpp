@@ -1,13 +1,13 @@
-// How what is felt of a sampled law on a device departs from its network, over frequency.
+// How the force felt from a sampled law on a device differs from its network's, over frequency.
 //
-// The brake gives (1 ± ε)(b + x), x what passivity adds to b. The motor's law H(z) acts on samples of the position, n
-// samples late, is held for the period T and passes the amplifier's lag τ. A motion e^{jωt} of the tool then meets, at
-// its own frequency,
+// The brake makes (1 ± ε)(b + x), where x is added to b for passivity. The motor's law H(z) acts on samples of the
+// position, n samples late, is held for the period T and passes the amplifier's lag τ. A motion e^{jωt} of the tool
+// then meets, at its own frequency,
 //     F = jω (1 ± ε)(b + x) + e^{−jωnT}/(1 + jωτ) · (1 − e^{−jωT})/(jωT) · H(e^{jωT})
 //     H = k0 + Σ c_i δ/(1 − a_i w) + E (b∞ − b + Σ e_i w/(1 − a_i w)),    w = e^{−jωT},  δ = 1 − w
 // where E is the estimator's response from position to velocity. The error is |F/D − 1|, D the network's closed form.
-// The coil plays no part: the brake of a linear network is told one number. The device's own inertia, friction and
-// damping are felt with every law alike and are not counted.
+// The coil does not matter: the brake of a linear network gets a constant command. The device's own inertia, friction
+// and damping are felt with every law alike and are not counted.
 #pragma once
 
 #include <complex>
@@ -38,8 +38,8 @@ class FeltError {
  private:
   struct Place {
     std::complex<double> without_brake;  // F/D − 1 at b = x = 0
-    std::complex<double> of_motor;       // what b changes of it through the motor [1/(N·s/m)]
-    std::complex<double> of_brake;       // jω/D: what b and x change of it through an exact brake [1/(N·s/m)]
+    std::complex<double> of_motor;       // change of it by b through the motor [1/(N·s/m)]
+    std::complex<double> of_brake;       // jω/D: change of it by b and x through an exact brake [1/(N·s/m)]
   };
   Place place(const MotorConstants& motor, std::complex<double> rendered, std::complex<double> reference,
               double angular_frequency) const;

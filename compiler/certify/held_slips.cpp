@@ -9,10 +9,10 @@
 namespace dashpot::compiler {
 namespace {
 
-// Of a mode's stiffness that is left after a sample: below it, the mode is taken for a damper, which changes K by no
-// more. Without it the rates of one pencil would lie further apart than its digits reach.
+// If less than this share of a mode's force is left after a sample, the mode counts as a damper, which changes K by no
+// more than that. Otherwise the rates of one pencil would lie further apart than its digits can resolve.
 const Real vanishing{"1e-18"};
-const Real negligible{"1e-40"};  // of the pencil's eigenvalues, between 0 and 1
+const Real negligible{"1e-40"};  // for the pencil's eigenvalues, which lie between 0 and 1
 
 struct HeldTie {
   std::size_t a, b;
@@ -30,7 +30,7 @@ class HeldNetwork {
   void add_spring(std::size_t a, std::size_t b, const Real& stiffness) { add(springs_, {{a, 1}, {b, -1}}, stiffness); }
   void add_damper(std::size_t a, std::size_t b, const Real& damping) { add(dampers_, {{a, 1}, {b, -1}}, damping); }
 
-  // By backward Euler: k = c/a, λ = (1 − a)/(a h). What vanishes within a sample is a damper c h.
+  // As in backward Euler: k = c/a, λ = (1 − a)/(a h). A mode that vanishes within a sample is a damper c h.
   void add_mode(std::vector<std::pair<std::size_t, Real>> weights, const Real& stiffness, const Real& relaxation_rate) {
     const ModeCoefficients c = mode_coefficients({stiffness, relaxation_rate, 1, {}}, settings_.scheme,
                                                  StateInput::position, settings_.sample_period);
@@ -62,8 +62,8 @@ class HeldNetwork {
     Real value;
   };
 
-  // What springs and dampers pull a set of ends with, for displacements of the inner places, or later of the modes, and
-  // of the tool.
+  // The force of springs and dampers on a set of ends, as coefficients of the displacements of the inner places, or
+  // later of the modes, and of the tool.
   struct Pull {
     RealVector springs, dampers;
     Real springs_at_tool, dampers_at_tool;
@@ -73,8 +73,8 @@ class HeldNetwork {
     if (value > 0) terms.push_back({std::move(weights), value});
   }
 
-  // The least number stands for all, so that tool and ground stay what they are. A slip that closes a ring of slips
-  // needs to hold none of a change: the others can.
+  // The smallest index stands for all joined ends, so that tool and ground keep theirs. A slip that closes a ring of
+  // slips need not hold any change: the others can.
   void join_slips() {
     joined_ = DisjointSets(ends_);
     for (const HeldTie& slip : slips_) is_in_forest_.push_back(joined_.unite_by_least(slip.a, slip.b));
@@ -108,7 +108,7 @@ class HeldNetwork {
     return sum;
   }
 
-  // What terms pull a set of ends with, for displacements of all places.
+  // The force of terms on a set of ends, for displacements of all places.
   RealVector pull(const std::vector<Term>& terms, const std::vector<bool>& set) const {
     RealVector sum = RealVector::Zero(inner_ + 1);
     for (const Term& term : terms) {
@@ -148,7 +148,7 @@ class HeldNetwork {
     return set;
   }
 
-  // Ends that slips join to one end of a slip, but for that slip; of its two sides the one without tool and ground.
+  // The ends that other slips join to one end of this slip: of its two sides the one without tool and ground.
   std::vector<bool> side_of(std::size_t slip) const {
     for (const std::size_t start : {slips_[slip].a, slips_[slip].b}) {
       std::vector<bool> set(ends_, false);

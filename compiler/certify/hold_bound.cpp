@@ -9,9 +9,9 @@ namespace mp = boost::multiprecision;
 
 namespace {
 
-constexpr unsigned grid = 1200;  // finer than the least double by 126 binary places
+constexpr unsigned grid = 1200;  // binary places; 126 finer than the smallest double
 
-// Of a fraction that need not be in lowest terms.
+// A fraction, not necessarily in lowest terms, rounded up to whole steps of the grid.
 mp::cpp_int steps_up(const mp::cpp_int& numerator, const mp::cpp_int& denominator) {
   mp::cpp_int quotient, remainder;
   mp::divide_qr(mp::cpp_int(numerator << grid), denominator, quotient, remainder);
@@ -32,7 +32,7 @@ double ceiling(const Rational& value) {
   return nearest;
 }
 
-// Whole numbers of steps, of which each double is one: fractions that are kept in lowest terms are slow.
+// Computes in whole steps of the grid, which every double is: fractions in lowest terms are slow.
 Rational hold_stiffness(const MotorConstants& motor) {
   mp::cpp_int beta = grid_steps_up(Rational(motor.static_stiffness) / 2);
   mp::cpp_int rest = grid_steps_up(Rational(motor.step_stiffness));

@@ -19,7 +19,7 @@ double largest(const std::vector<double>& table) {
   return most;
 }
 
-// A bound that came out as NaN bounds nothing.
+// A bound that came out as NaN is no bound.
 double at_least(double value) { return std::isnan(value) ? -infinity : value; }
 double at_most(double value) { return std::isnan(value) ? infinity : value; }
 
@@ -37,7 +37,7 @@ Magnitudes::Magnitudes(const UpdateLaw& law, const InputRange& range, Detail det
   }
   bounds_.include(first(law.position), -range.position, range.position);
   bounds_.include(first(law.velocity), -range.velocity, range.velocity);
-  if (law.mapped != no_variable) {  // |w| ≤ w′_most |u − start|, but for the roundings of a cubic
+  if (law.mapped != no_variable) {  // |w| ≤ w′_most |u − start|, apart from rounding
     const double most = law.steepest * (range.position + std::abs(law.map_start)) * (1 + 64 * roundoff_);
     bounds_.include(first(law.mapped), -most, most);
   }
@@ -67,8 +67,8 @@ void Magnitudes::step() {
   bounds_ = then;
 }
 
-// find_anchors() only looks for the form, and one case that has it is enough: the difference is bounded afterwards,
-// whatever a step does with it.
+// Looks only for the form of such a relation, and one case with that form is enough: whether the difference is bounded
+// is computed afterwards.
 Anchors Magnitudes::find_anchors() {
   std::map<std::size_t, double> springs;
   in_every_case({&law_.output, &law_.keep, &law_.update}, [&] {
@@ -89,7 +89,7 @@ const std::vector<Share>* Magnitudes::anchor_of(std::size_t at) const {
   return found != anchors_.end() ? &found->shares : nullptr;
 }
 
-// g/a of a force that the surface's way drives; 0 of another state.
+// g/a of a force that the surface's movement drives; 0 for another state.
 double Magnitudes::spring_of(std::size_t force) const {
   const auto own = values_[force].shares.find(force);
   const double decay = own != values_[force].shares.end() ? own->second : 0;
@@ -110,7 +110,7 @@ double Magnitudes::spring_of(std::size_t force) const {
   return is_driven ? gain / decay : 0;
 }
 
-// Of a state that a step makes of others as they will be, in its last statement of each.
+// The shares of a state that a step computes as a sum of other states' new values.
 std::vector<Share> Magnitudes::sum_at(const Statement& s) const {
   std::vector<Share> terms;
   if (!s.assigns() || law_.variables[s.target].size != 1 || !add_terms(s.value, terms)) return {};
@@ -187,7 +187,7 @@ void Magnitudes::begin() {
   for (const Anchored& anchored : anchors_) values_[anchored.at] = plus(symbol(anchored.at), anchored.shares, 1);
 }
 
-// The steps of a map fork and come together again in w, of which the bounds are known: its cases are not told apart.
+// The cases of a map are not told apart: the bounds of its result w are known.
 void Magnitudes::run(const std::vector<Statement>& program) {
   const Detail asked = detail_;
   const bool has_map = std::any_of(program.begin(), program.end(), [&](const Statement& s) { return is_map(s); });
@@ -241,7 +241,7 @@ void Magnitudes::solve(const Solved& solved, VariableId force, const Amount& cha
     if (sign != no_variable) values_[first(sign)] = sized(1);
 }
 
-// Every operation of a step rounds by no more than the terms of its answer.
+// Rounding of a solver's step is bounded by the sizes of the terms of its result.
 Amount Magnitudes::combined(const SlipAnswerRow& row, const Amount& change, const std::vector<Amount>& held,
                             const std::vector<Amount>& slips, int operations) const {
   Amount all = exactly(0);
@@ -257,7 +257,7 @@ Amount Magnitudes::combined(const SlipAnswerRow& row, const Amount& change, cons
   return within(all, -infinity, infinity);
 }
 
-// a + factor b, as it is and not as a law would work it out.
+// a + factor b, exactly: without the rounding that a law would add.
 Amount Magnitudes::plus(const Amount& a, const Amount& b, double factor) const {
   Amount all = a;
   for (const auto& [at, share] : b.shares) all.shares[at] += factor * share;
@@ -272,9 +272,9 @@ Amount Magnitudes::plus(Amount a, const std::vector<Share>& shares, double sign)
   return a;
 }
 
-// Of a force F with an error e that is carried along, and y, which is added (Kahan): up to a rounding of y, and to one
-// of what F itself has lost in rounding, F + e becomes F + y = F + e + drive − α F. Where F + e is within
-// S = (drive + α |e| + roundings)/α it stays there, however small α is beside a rounding of F.
+// A force F with a rounding error e that is carried along, to which y is added (Kahan): apart from one rounding of y
+// and one of e, F + e becomes F + y = F + e + drive − α F. If F + e is within S = (drive + α |e| + roundings)/α, it
+// stays there, even if α is small compared with a rounding of F.
 void Magnitudes::carry(std::size_t force, Bounds& then) const {
   const std::size_t error = errors_.at(force);
   Amount drive = values_[added_.at(force)];
@@ -292,7 +292,7 @@ void Magnitudes::carry(std::size_t force, Bounds& then) const {
   then.include(error, -lost, lost);
 }
 
-// A force is as far from 0 as it is with its error, and the error.
+// The force alone is F + e less e, so that its bound is the sum of both bounds.
 double Magnitudes::low_of(std::size_t symbol) const {
   if (symbol >= bounds_.low.size()) return -slip_forces_[symbol - bounds_.low.size()];
   const auto error = errors_.find(symbol);
@@ -326,7 +326,7 @@ void Magnitudes::know(const Amount& amount, double sign) {
   if (law_.surface_at && !all.shares.empty()) positive_.push_back(all);
 }
 
-// Where c ≥ 0 is known, x ≥ x − λ c and x ≤ x + λ c for any λ > 0: those are tried that leave one share of x out.
+// If c ≥ 0 is known, x lies between x − λ c and x + λ c for any λ > 0: each λ that cancels one share of x is tried.
 Amount Magnitudes::tightened(Amount value) const {
   for (const Amount& known : positive_)
     for (const auto& [at, share] : known.shares) {
@@ -358,7 +358,7 @@ Amount Magnitudes::within(Amount value, double low, double high) const {
 
 Amount Magnitudes::symbol(std::size_t at) const { return {{{at, 1.0}}, 0, 0, false, low_of(at), high_of(at)}; }
 
-// Adding zero is exact. Without that, a state that a case leaves as it is would grow by a rounding a step for ever.
+// Adding zero is exact. Otherwise the bound of a state that a case does not change would grow at every step.
 Amount Magnitudes::sum(const Amount& a, const Amount& b, double sign) const {
   Amount all = a;
   all.has_kept_share |= b.has_kept_share;
@@ -373,7 +373,7 @@ Amount Magnitudes::sum(const Amount& a, const Amount& b, double sign) const {
   return within(all, low, high);
 }
 
-// A compiler may leave out the rounding of a product that it adds to something: the interval makes room for that.
+// A compiler may fuse a product with an addition and skip its rounding: the interval allows for that.
 Amount Magnitudes::scaled(const Amount& a, double factor) const {
   Amount all = a;
   for (auto& [at, share] : all.shares) share *= factor;
@@ -386,8 +386,8 @@ Amount Magnitudes::scaled(const Amount& a, double factor) const {
   return within(all, low > 0 ? low / room : low * room, high > 0 ? high * room : high / room);
 }
 
-// A value that is linear in the kept share is largest where the share is 0 or 1, and both are tried. A product of two
-// such values is not linear: no bound is given.
+// A value that is linear in the kept share is largest at share 0 or 1, so both are tried. For a product of two such
+// values, which is not linear, no bound is given.
 Amount Magnitudes::product(const Amount& a, const Amount& b) const {
   if (a.has_kept_share && b.has_kept_share) return sized(infinity);
   const Amount &factor = a.shares.empty() ? a : b, &other = a.shares.empty() ? b : a;
@@ -439,8 +439,8 @@ Amount Magnitudes::chosen(const Expression& where, std::size_t place) {
   return of(where.operands[is_above ? 1 : 2], place);
 }
 
-// What a case knows: a > 0, or a − b > 0, which rounding leaves as it is. Locals and inputs are assigned once, so that
-// the same question has the same answer for the rest of the step.
+// Records what holds in this case: a > 0, or a − b > 0, which rounding cannot change. Locals and inputs are assigned
+// once, so that the same condition has the same answer for the rest of the step.
 void Magnitudes::take(ExpressionId condition, bool is_above) {
   const Expression& e = law_.expressions[condition];
   const auto scalar = [&](ExpressionId id) {
@@ -476,12 +476,12 @@ Amount Magnitudes::of(ExpressionId id, std::size_t place) {
     case Operation::add: return sum(part(0), part(1), 1);
     case Operation::subtract: return sum(part(0), part(1), -1);
     case Operation::multiply: return product(part(0), part(1));
-    case Operation::divide:  // nothing bounds another quotient than that of what the motor gives and what was wanted
+    case Operation::divide:  // only the quotient of the motor's force and the wanted force has a bound
       return law_.sheds() && is_read_of(e.operands[0], law_.force) && is_read_of(e.operands[1], law_.wanted)
                  ? kept_share()
                  : sized(infinity);
     case Operation::mean_decay: return sized(1);
-    case Operation::square_root: return sized(infinity);  // of motion maps, which are bounded otherwise
+    case Operation::square_root: return sized(infinity);  // occurs in motion maps only, which are bounded elsewhere
     case Operation::flush: return part(0);
     case Operation::clamp: return clamped(part(0), size(1));
     case Operation::where: return chosen(e, place);

@@ -14,12 +14,12 @@
 
 namespace dashpot::compiler {
 
-// Σ c_i x_i over the states and inputs at the beginning of a step and over the forces of coupled slips, a constant, and
-// a rest of which the magnitude alone is known: roundings, and what a slip or a contact decides where its cases are not
-// told apart. Beside it an interval, which knows what a case has decided; rounding does not take a number beyond a
-// bound that is a number too.
+// A value during a step, as Σ c_i x_i over states and inputs at the beginning of the step and over forces of coupled
+// slips, plus a constant, plus a rest whose magnitude alone is known: rounding, and what a slip or a contact decides if
+// its cases are not told apart. In addition an interval, which uses what is known in the present case; rounding does
+// not take a number beyond a bound that is itself a number of the type.
 struct Amount {
-  // c by x, of which there are few.
+  // The factor c of each x; there are few.
   boost::container::flat_map<std::size_t, double, std::less<std::size_t>,
                              boost::container::small_vector<std::pair<std::size_t, double>, 8>>
       shares;
@@ -33,11 +33,11 @@ struct Amount {
 // where there are too many cases they are not told apart.
 enum class Detail {
   none,
-  choices,  // of every `where`, and whether a surface is touched
-  slips,    // and of every clamp whether it holds
+  choices,  // of every `where`: whether a surface is touched, and others
+  slips,    // also of every clamp: whether it limits
 };
 
-// Which of its cases each decision of a step takes, for all combinations in turn.
+// Goes through all combinations of the cases of a step's decisions.
 class StepCases {
  public:
   unsigned choose(unsigned count) {
@@ -61,18 +61,18 @@ class StepCases {
 // stretched, F ← a F + g (y⁺ − y), F − (g/a) y is bounded if y is, however slowly F decays. For a state that is a sum
 // of others the difference is what rounding leaves.
 struct Share {
-  std::size_t at;  // y
+  std::size_t at;  // index of y
   double factor;
 };
 struct Anchored {
-  std::size_t at;  // x
+  std::size_t at;  // index of x
   std::vector<Share> shares;
 };
-using Anchors = std::vector<Anchored>;  // each after those that its shares are of
+using Anchors = std::vector<Anchored>;  // each after those that its shares refer to
 
 class Magnitudes {
   struct Bounds {
-    std::vector<double> low, high;  // neither side of 0 alone
+    std::vector<double> low, high;  // low ≤ 0 ≤ high
     void include(std::size_t at, double least, double most);
   };
 
@@ -83,7 +83,7 @@ class Magnitudes {
   Anchors find_anchors();
   const Anchors& anchors() const { return anchors_; }
   std::size_t effort() const { return effort_; }  // statements and steps of coupled slips so far, in all cases
-  double force();                                 // at most [N]
+  double force();                                 // largest magnitude [N]
 
   // How far below 0 and how far above each state may be, one after the other. For a force with an error that is carried
   // along these are bounds of their sum, for a state with an anchor of the difference.
@@ -146,15 +146,15 @@ class Magnitudes {
   StepCases cases_;
   std::vector<std::size_t> starts_;  // place of each variable in the lists below
   Bounds bounds_;
-  std::map<std::size_t, std::size_t> errors_;  // of forces that carry one along
-  std::map<std::size_t, std::size_t> added_;   // what is added to them in a step
+  std::map<std::size_t, std::size_t> errors_;  // index of the carried error, by force
+  std::map<std::size_t, std::size_t> added_;   // index of what is added in a step, by force
   Anchors anchors_;
-  std::map<std::pair<const std::string*, bool>, SlipAnswer> answers_;  // by the name of what is solved together
-  // Of the case at hand:
+  std::map<std::pair<const std::string*, bool>, SlipAnswer> answers_;  // by the name of slips solved together
+  // For the present case:
   std::vector<Amount> values_;
-  std::vector<double> slip_forces_;                          // at most, symbols after those of all variables
+  std::vector<double> slip_forces_;  // largest magnitudes; their symbols follow those of the variables
   std::map<std::pair<VariableId, VariableId>, bool> known_;  // a − b > 0, or a > 0
-  std::vector<Amount> positive_;                             // what is not below 0
+  std::vector<Amount> positive_;                             // amounts known to be 0 or more
   bool is_possible_ = true;
 };
 

@@ -38,7 +38,7 @@ void read_bank(const UpdateLaw& law, std::size_t bank, MotorConstants& motor) {
   motor.error_bound = law.relative_error_bound;
 }
 
-// Of the motor's limits, or of a static curve's map.
+// Whether the statement belongs to the motor's limits or to a static curve's map.
 bool is_beside_network(const UpdateLaw& law, const Statement& statement) {
   bool found = false;
   each_expression(law, statement.value, [&](const Expression& e) {
@@ -53,7 +53,7 @@ bool has_slips(const UpdateLaw& law) {
   if ((law.brake_changes() && law.mapped == no_variable) || !law.couplings.empty() || !law.networks.empty() ||
       law.surface_at)
     return true;
-  bool chooses = false;  // beside the limits of a motor
+  bool chooses = false;  // whether it makes choices other than a motor's limits
   for (const Statement& statement : law.output)
     if (!is_beside_network(law, statement))
       each_expression(law, statement.value, [&](const Expression& e) {

@@ -30,9 +30,9 @@ struct MotorConstants {
   bool loss_is_emitted = false;      // the decay is exactly 1 − loss; else the loss is exactly 1 − decay
   std::vector<MotorMode> modes;
   double unit_roundoff = 0;  // of the law's scalar type
-  double error_bound = 0;    // of a mode's force, relative to its peak, from rounding while it runs
+  double error_bound = 0;    // error of a mode's force from rounding, relative to its peak
 
-  bool is_idle() const;           // it makes nothing
+  bool is_idle() const;           // it makes no force
   bool follows_estimate() const;  // the motor uses v̂ anywhere
   bool estimate_drives_modes() const;
 };
@@ -43,10 +43,10 @@ MotorConstants position_driven(MotorConstants motor);
 // a, exactly.
 Rational exact_decay(const MotorConstants& motor, const MotorMode& mode);
 
-// Of a law with slips, the part that reaches ground without one.
+// For a law with slips: the motor of the part that reaches ground without one.
 MotorConstants linear_motor_constants(const UpdateLaw& law);
 
-// The modes of every part behind slips, a part each.
+// The modes behind slips, one entry for each part.
 std::vector<MotorConstants> parts_behind_slips(const UpdateLaw& law);
 
 // Empty for a law with slips or a contact, which is not linear, and for one whose parameters change.

@@ -12,16 +12,16 @@
 namespace dashpot::compiler {
 namespace {
 
-// √3/36, of B₃(x) = x³ − 3/2 x² + ½ x over 0 … 1: what a last step that is no whole one adds.
+// √3/36, the largest B₃(x) = x³ − 3/2 x² + ½ x over 0 … 1: counts a last step that is not a whole one.
 constexpr double largest_bernoulli = 0.04811252243246881;
 
-constexpr double margin = 1 + 1e-12;  // beyond what rounding does to these few sums
+constexpr double margin = 1 + 1e-12;  // more than rounding changes these few sums by
 
 // β and what the estimate adds to it, γ|g|/h [N/m].
 struct Gains {
   double position = 0;
   double estimate = 0;
-  double dampers = 0;  // that cross the cut and are not the brake's [N·s/m]
+  double dampers = 0;  // across the cut, without those that the brake makes [N·s/m]
   std::string hindrance;
   bool follows_estimate = false;
 
@@ -54,7 +54,7 @@ Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& sli
   gains.position += slips->stiffness;
   gains.dampers = slips->damping;
   const bool is_late = loop.is_late();
-  // The compensation of a ramp is paid for by the brake's own excess, as long as both act on the same hold.
+  // The brake's own excess covers what a ramp takes back, as long as both act on the same hold.
   add_estimate(slips->compensation + (is_late ? slips->held_compensation : 0), loop, gains);
   if (is_late && !slips->springs_alone)
     gains.hindrance = fmt::format("dampers are behind the slips, and {}", why_late(loop));
@@ -63,7 +63,7 @@ Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& sli
   return gains;
 }
 
-// Of a linear law, with slips or without.
+// For a law without tunables, with slips or without.
 Unbounded unbounded(const Gains& gains, const std::optional<SlipMotor>& slips, const SampledLoop& loop) {
   if (!(loop.travel > 0)) return Unbounded::no_range;
   if (!gains.follows_estimate && gains.hindrance.empty() && gains.dampers == 0) return Unbounded::nothing;
@@ -71,13 +71,13 @@ Unbounded unbounded(const Gains& gains, const std::optional<SlipMotor>& slips, c
   return gains.follows_estimate ? Unbounded::estimate : Unbounded::dampers;
 }
 
-// Of the spring that holds before anything gives way.
+// Stiffness of the network before any slip gives way.
 double stiffness_of(const MotorConstants& linear, const std::optional<SlipMotor>& slips) {
   const MotorConstants beside = motor_beside(slips, linear);
   return beside.static_stiffness + beside.step_stiffness + (slips ? 2 * slips->stiffness : 0);
 }
 
-// F_i = c_i (u − q_i), q_i an average of where the tool has been: within the travel R no more than c_i R.
+// F_i = c_i (u − q_i), where q_i is an average of earlier positions: within the travel R it is at most c_i R.
 double largest_force(const MotorConstants& linear, const std::optional<SlipMotor>& slips, const SampledLoop& loop) {
   return stiffness_of(linear, slips) * loop.travel * margin;
 }

@@ -1,8 +1,8 @@
-// What the motor's limit and slew do to what is proved (theory, section 10).
+// How the motor's force limit and slew limit change what is proved (theory, section 10).
 //
-// Clamp: a linear law that position drives, without an estimate of the velocity, may hold φ(m) in place of m for any
-// fixed nondecreasing φ of slope at most 1 with φ(0) = 0; β stays. (1/H of force per increment is a Zames-Falb
-// multiplier, since H is completely monotone.)
+// Clamp: a linear law that is driven by position alone may hold φ(m) in place of m, for any fixed nondecreasing φ of
+// slope at most 1 with φ(0) = 0; β does not change. (1/H of force per increment is a Zames-Falb multiplier, since H is
+// completely monotone.)
 //
 // Shed: any other law multiplies all its forces by one s in [0, 1], so that its command is within the limit. Its
 // storage falls to s²V, and the next step starts from a state like any other. Its part c of position then changes by
@@ -36,7 +36,7 @@ namespace dashpot::compiler {
 
 enum class LimitRule {
   none,    // no limit is stated, or it never binds
-  clamps,  // the motor clips, the states do not know
+  clamps,  // the motor clips its command, the states are not changed
   sheds,   // the law shrinks its states
 };
 
@@ -55,17 +55,17 @@ enum class Unbounded : unsigned char {
 
 struct MotorLimits {
   LimitRule rule = LimitRule::none;
-  bool is_covered = true;  // with the damping that is there, whatever the motor clips or the law sheds
+  bool is_covered = true;  // the damping there is enough, whatever the motor clips or the law sheds
   Unbounded unbounded = Unbounded::nothing;
-  double needed = 0;                    // for that, all in all [N·s/m]; 0 where none is, or where nothing is known
-  std::optional<double> available;      // of the damping, where that is less than needed [N·s/m]
-  std::string reason;                   // why it is not covered whatever damping there is; else empty
-  std::optional<double> largest_force;  // asked for within the encoder's range [N]; empty: not bounded
-  std::optional<double> slew_needed;    // to follow at any speed that is stated [N/s]; empty: not bounded
-  std::optional<double> largest_discontinuity;  // of the force that the slew covers [N]; empty where no slew is stated
+  double needed = 0;                            // damping needed for that [N·s/m]; 0 if none is, or if it is not known
+  std::optional<double> available;              // the damping there, if it is less than needed [N·s/m]
+  std::string reason;                           // why no damping would be enough; else empty
+  std::optional<double> largest_force;          // asked for within the encoder's range [N]; empty: not bounded
+  std::optional<double> slew_needed;            // to follow at every stated speed [N/s]; empty: not bounded
+  std::optional<double> largest_discontinuity;  // jump of the force that the slew covers [N]; empty: no slew
 };
 
-// Of a law without tunables before anything is shed. `slips` as in the certificate; `needed` and `assured` the
+// For a law without tunables, before shedding is written. `slips` as in the certificate; `needed` and `assured` the
 // certificate's [N·s/m].
 MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& slips, const SampledLoop& loop,
                          double needed, const Rational& assured);
@@ -81,29 +81,29 @@ MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<d
 std::optional<double> needed_sample_by_sample(const MotorConstants& linear, const std::optional<SlipMotor>& slips,
                                               const SampledLoop& loop);
 
-// Why the limits are not covered, with the unit of damping; empty if they are. The damping is that of the statement
+// Why the limits are not covered, with `unit` for damping; empty if they are. The damping is that of the statement
 // sample by sample, which may differ from the certificate's, a statement over all frequencies.
 std::string why_not_covered(const MotorLimits& limits, const std::string& unit);
 
 // (k0 + Σ c_i) v T/(h − j) + Σ |F_i| (1 − a_i)/(h − j), not below it, of a linear law; empty where it is not bounded.
 std::optional<double> slew_needed(const MotorConstants& motor, const SampledLoop& loop);
 
-// 2 β′ T √(σ/3ρ): what a slew costs that is enough, σ of ρ being used; empty where the estimator's gain is not known.
+// 2 β′ T √(σ/3ρ): the damping that a slew ρ costs if the law uses σ of it; empty if the estimator's gain is not known.
 std::optional<double> damping_for_slew(const MotorConstants& motor, double used, const SampledLoop& loop);
 
 // L [s]; 0 without a lag, infinite with one where two samples may follow at once.
 double time_of_lag(const SampledLoop& loop);
 
-// W [s], not below it; 0 where commands act at once.
+// Upper bound of W [s]; 0 if commands act at once.
 double time_of_write(const SampledLoop& loop);
 
 // L, and what a command's own lateness asks for whatever is done at the same sample: 2 √(T d) [s], not below it.
 double time_of_lateness(const SampledLoop& loop);
 
-// The largest such F0; 0 where there is none.
+// The largest F0 with this property (see above); 0 if there is none.
 double covered_discontinuity(double slew, double spare_damping, double stiffness, double sample_period);
 
-// What one period may change the motor's force by, ρ (h − j) [N]; 0: unlimited.
+// The largest change of the motor's force in a period, ρ (h − j) [N]; 0: unlimited.
 double largest_change(const SampledLoop& loop);
 
 std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& loop, const PortUnits& units);

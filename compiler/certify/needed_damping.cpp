@@ -52,7 +52,7 @@ NeededDamping::NeededDamping(const MotorConstants& motor, const SampledLoop& loo
     lag_share_ = lag_loss_ / y;
     lag_spread_ = std::sqrt(lag_share_ * lag_spread(y, lag_decay_)) * (1 + 1e-13);
   }
-  // Behind a lag of punctual samples; else of the longest hold, which then scales all.
+  // With a lag, the hold of punctual samples; else the longest hold, which then scales everything.
   if (loop.write_latest > 0) {
     const double hold = loop.amplifier_lag > 0 ? loop.sample_period : loop.longest_hold();
     const LateWrite<Real> write = late_write(hold, loop.write_latest, loop.amplifier_lag);

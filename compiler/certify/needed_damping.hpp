@@ -32,7 +32,7 @@
 
 namespace dashpot::compiler {
 
-// What a command that acts late does to a hold; of one that acts at once all are zero.
+// How a command that acts late changes a hold; all numbers are zero if it acts at once.
 template <class Scalar>
 struct LateWrite {
   Scalar kept = 0;         // ψ(T)
@@ -46,20 +46,19 @@ LateWrite<Real> late_write(double hold, double delay, double lag);
 
 class NeededDamping {
  public:
-  // `estimator` is not read where the motor does not follow the estimate.
+  // `estimator` is not used if the motor does not follow the estimate.
   NeededDamping(const MotorConstants& motor, const SampledLoop& loop, const EstimatorFactors& estimator);
 
   struct Bounds {
-    double at_centre;  // not above S there [N·s/m]
-    double over_arc;   // not below S anywhere on the arc; may be infinite on a wide one
+    double at_centre;  // lower bound of S at the arc's centre [N·s/m]
+    double over_arc;   // upper bound of S on the arc; may be infinite on a wide arc
   };
   Bounds on(const Arc& arc) const;
 
   // Sum of the sizes of S's terms: nothing is known more finely than this, rounded [N·s/m].
   double scale() const { return scale_; }
-  std::size_t terms() const {
-    return modes_.size() + 8;
-  }                                              // that are summed on an arc, those of estimator and lag included
+  // Number of terms summed on an arc, with those of estimator and lag.
+  std::size_t terms() const { return modes_.size() + 8; }
   double roundoff() const { return roundoff_; }  // of S, relative to the size of its terms
 
  private:

@@ -11,7 +11,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// At most this share is worth a note.
+// A value of at most this share of the choice's is worth a note.
 constexpr double worthwhile = 0.9;
 
 using Eligible = bool (*)(const Candidate&, const Candidate&);
@@ -43,7 +43,7 @@ std::string price_of(const Candidate& other, const Decomposition& decomposition)
                      in_percent(choice.largest_error), alike);
 }
 
-// A law that would keep the noise of the estimate out of the motor, with its error in a run.
+// A law behind slips that keeps the estimate's noise out of the motor, with its error in a run.
 std::optional<std::string> quieter_law(const SlipDecomposition& slips) {
   const SlipLawMerit *chosen = nullptr, *quietest = nullptr;
   const std::vector<const ComponentSplit*> parts = slips.all();

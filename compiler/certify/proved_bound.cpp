@@ -11,7 +11,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// The loop that the bound speaks of; empty where the bound is not over frequencies alone.
+// The loop that the bound is for; empty if the bound does not come from frequencies alone.
 std::optional<SampledLoop> loop_of(const PassivityBound& bound, const std::optional<MotorConstants>& motor,
                                    const SampledLoop& loop) {
   const bool is_plain = motor && bound.proof == Proof::sampled && !bound.any_regime && !bound.any_value;
@@ -43,7 +43,7 @@ bool is_one_linear_loop(const MotorConstants& motor, const SampledLoop& loop) {
   return !motor.follows_estimate() || estimator_factors(loop);
 }
 
-// What an estimate that is not linear adds to what position drives: its gain, which no lag makes larger [N·s/m].
+// Damping that an estimate which is not linear needs in addition: its gain, which no lag makes larger [N·s/m].
 std::optional<double> needed_beside(const MotorConstants& motor, const SampledLoop& loop) {
   if (is_one_linear_loop(motor, loop)) return 0;
   const std::optional<double> estimate = damping_for_estimate(motor, loop);
@@ -83,8 +83,8 @@ bool needs_jitter_gap(const SampledLoop& loop) { return loop.amplifier_lag > 0 &
 
 namespace {
 
-// The law takes increments and not times, so that a hold of another length is one of another loop: what a velocity
-// gain gives for a displacement stays what it was, but where the estimate knows how long the hold was.
+// The law sees increments and no times, so that a longer hold is like one of a slower loop. The force that a velocity
+// gain makes of a displacement stays the same, unless the estimate divides by the actual length of the hold.
 PassivityBound bound_at_longest_holds(MotorConstants motor, SampledLoop loop, std::size_t terms) {
   const double longer = loop.longest_hold() / loop.sample_period;
   const bool is_measured = loop.has_device && loop.velocity.estimator == estimator_kind::interval_difference;

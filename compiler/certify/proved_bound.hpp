@@ -1,4 +1,4 @@
-// What is stated of a linear law: the damping that a storage function proves (theory, section 6b), where one is found.
+// The bound stated for a linear law: the damping that a storage function proves (theory, section 6b), if one is found.
 //
 // The bound over frequencies is used by searches, and for laws that are not linear. It is rigorous too, but with a slow
 // mode it may be a hundredth too large, and it can only be checked by repeating the computation.
@@ -9,7 +9,7 @@
 
 namespace dashpot::compiler {
 
-// Relative; above it a storage function is not taken in place of the bound over frequencies.
+// If a storage function needs more than this in excess (relative), the bound over frequencies is used instead.
 inline constexpr double most_storage_excess = 1e-8;
 
 // `passivity_bound`, but where it is one over frequencies and nothing stands beside it, the damping that a storage

@@ -31,8 +31,8 @@ class MotorPulse {
     return pulse;
   }
 
-  // Not below Σ|h_j| over all that is to come, q being 0 and Σ|r| at most `rest`. What a mode still makes, −α P, −α a
-  // P, …, sums to −P; modes that agree in sign keep it.
+  // Upper bound of Σ|h_j| over all samples still to come, with q = 0 and Σ|r| at most `rest`. A mode still makes −α P,
+  // −α a P, …, which sums to −P.
   double to_come(double rest) const {
     double of_sums = 0, of_rest = std::abs(motor_.velocity_gain);
     for (std::size_t i = 0; i < sums_.size(); ++i) {
@@ -50,8 +50,8 @@ class MotorPulse {
   double mode_force_ = 0, last_q_ = 0, last_r_ = 0;
 };
 
-constexpr std::size_t longest_pulse = 100'000;  // samples; what is left is bounded
-constexpr std::size_t between_looks = 16;       // samples; a look at what is left takes longer than one
+constexpr std::size_t longest_pulse = 100'000;  // samples; the rest is bounded by to_come()
+constexpr std::size_t between_looks = 16;       // samples; to_come() takes longer than a sample
 
 double sum_of_pulse(const MotorConstants& motor, const SampledLoop& loop, const EstimatorFactors& estimator) {
   MotorPulse pulse(motor, loop.sample_period);

@@ -32,11 +32,11 @@ namespace dashpot::compiler {
 // parts' bounds: whatever window it chooses, v̂ is off by at most Δ/T.
 std::optional<double> quantisation_gain(const MotorConstants& motor, const SampledLoop& loop);
 
-// The same of a law with slips or a contact, not below it; `linear` is what reaches ground without a slip. Empty also
-// where the encoder's step alone can make a slip give way.
+// Upper bound of K for a law with slips or a contact; `linear` is the part that reaches ground without a slip. Empty
+// also if the encoder's step alone can make a slip give way.
 std::optional<double> quantisation_gain(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop);
 
-// Σ|h_j| of the velocity estimate itself [1/s]; empty where nothing is known of it.
+// Σ|h_j| of the velocity estimate itself [1/s]; empty if it is not known.
 std::optional<double> estimate_pulse(const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

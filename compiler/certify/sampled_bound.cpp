@@ -30,7 +30,7 @@ SampledBound sampled_bound(const NeededDamping& needed, double sample_period, st
     result.attained = bounds.at_centre;
     result.frequency = arc.angle() / (2 * pi * sample_period);
   };
-  look({0, 0});  // at rest and at Nyquist most suprema lie
+  look({0, 0});  // most suprema lie at rest or at Nyquist
   look({1, 1});
   look({0, 1});
   const double resolution = std::max(1e-12, 4 * needed.roundoff()) * needed.scale();

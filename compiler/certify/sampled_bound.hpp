@@ -6,10 +6,10 @@
 namespace dashpot::compiler {
 
 struct SampledBound {
-  double needed = 0;     // not below the supremum of S, nor more than `precision` above it [N·s/m]
-  double attained = 0;   // not above it [N·s/m]
-  double frequency = 0;  // where it is nearly attained [Hz]
-  std::size_t arcs = 0;  // that were looked at
+  double needed = 0;     // upper bound of the supremum of S, within the precision below [N·s/m]
+  double attained = 0;   // lower bound of the supremum [N·s/m]
+  double frequency = 0;  // where S nearly reaches its supremum [Hz]
+  std::size_t arcs = 0;  // number of arcs examined
 };
 
 // Limit on the number of modes times arcs. The search for a supremum hardly above the rounding of its terms might never

@@ -31,18 +31,18 @@ struct SampledLoop {
   velocity_description velocity;  // in the joint's coordinate
   double joint_encoder_step = 0;  // what the estimator is built with [m] or [rad]
 
-  // T_max: of a command, from when it acts until the next does, or of the samples, whichever is longer [s].
+  // T_max: longest time between two samples, or between two commands taking effect, whichever is longer [s].
   double longest_hold() const { return sample_period + jitter + (write_latest - write_earliest); }
-  // Of the longest hold, the share for which the command before still acts.
+  // Share of the longest hold during which the command before still acts.
   double late_share() const { return write_latest / longest_hold(); }
   bool is_late() const { return delay_samples > 0 || amplifier_lag > 0 || write_latest > 0; }
   // Whether all holds are of one length.
   bool is_punctual() const { return jitter == 0 && write_latest == write_earliest; }
-  // Whether a sample may be read before the command of the one before it acts, of which nothing is proved.
+  // Whether a sample may be read before the command of the sample before acts; nothing is proved then.
   bool may_overtake() const { return write_latest > 0 && write_latest > sample_period - jitter; }
 };
 
-// What makes a loop late; of several, what is the worst.
+// Why a loop is late: the worst of several reasons.
 inline const char* why_late(const SampledLoop& loop) {
   if (loop.delay_samples > 0) return "the loop is delayed by \"delay_samples\"";
   return loop.write_latest > 0 ? "commands act later than their samples" : "the amplifier lags";

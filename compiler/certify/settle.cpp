@@ -13,18 +13,18 @@
 namespace dashpot::compiler {
 namespace {
 
-// A search asks for some hundred bounds. Each lies above the supremum however soon it is left, so what fits it fits.
+// A search computes some hundred bounds. Each is an upper bound even if it is stopped early, so what fits it is safe.
 constexpr std::size_t search_terms = most_terms / 10;
 
 // Share of the bound over frequencies by which the storage function that proves it may be above it, and as much again
 // for the search for that function, which is a search.
 constexpr double proof_reserve = 2 * most_storage_excess;
 
-constexpr double gap_tolerance = 2e-4;  // of what jitter asks for
+constexpr double gap_tolerance = 2e-4;  // relative, of the extra damping that jitter needs
 
-constexpr int most_looks = 4;  // at what jitter asks for, where a search went by too little or too much
+constexpr int most_looks = 4;  // recomputations of the damping that jitter needs, after a search with a wrong value
 
-// Beyond the precision of the bounds.
+// Less by more than the precision of the bounds.
 bool is_noticeably_less(double x, double y) { return x < y * (1 - 1e-6); }
 
 bool is_better(const StateInputMerit& one, const StateInputMerit& other) {
@@ -100,7 +100,7 @@ void CandidateSettler::settle_at(Candidate& candidate) {
   }
 }
 
-// What it gives in every regime, `beside` of it besides what is behind slips.
+// The brake's least command in any regime; `beside` is the part that no slip changes.
 double CandidateSettler::least_brake(double beside) const { return beside + (slips_ ? slips_->least_brake : 0); }
 
 // What the brake gives, at the tool. Where a surface can be left, more than b∞ would have to be taken back by the motor
@@ -141,7 +141,7 @@ UpdateLaw CandidateSettler::law_without_brake(const Network& network, StateInput
   return discretise(network, form_, single, choices_, rate_);
 }
 
-// Relative to the network while all slips hold, where their regimes are listed.
+// The error is relative to the network with all slips holding, if their regimes are listed.
 const FeltError& CandidateSettler::felt(StateInput input) {
   std::unique_ptr<FeltError>& known = felt_[input];
   if (known) return *known;
@@ -181,7 +181,7 @@ const std::optional<MotorConstants>& CandidateSettler::without_brake(StateInput 
   return motors_.emplace(input, needs_whole ? motor_constants(law) : linear_motor_constants(law)).first->second;
 }
 
-// Whatever b: it is only in the velocity gain, b∞ − b.
+// b only changes the velocity gain, b∞ − b.
 std::optional<MotorConstants> CandidateSettler::motor_at(StateInput input, double damping) {
   std::optional<MotorConstants> motor = without_brake(input);
   if (!motor) return motor;
@@ -203,7 +203,7 @@ double CandidateSettler::gap_of(StateInput input) const {
   return known != gaps_.end() ? known->second : gap_.value_or(1);
 }
 
-// Whether bound() has gone by another gap than is found at that damping; from then on it goes by that.
+// Whether the gap at this damping differs from the one that bound() has used; if so, bound() uses it from now on.
 bool CandidateSettler::is_changed_by_look(StateInput input, double damping) {
   const bool is_asked_for = looks_at_gaps_ && needs_jitter_gap(loop_) && !network_.map;
   const std::optional<MotorConstants> motor = is_asked_for ? motor_at(input, damping) : std::nullopt;
@@ -222,7 +222,7 @@ void CandidateSettler::assume_jitter_gap(double gap) {
   looks_at_gaps_ = false;
 }
 
-// As if the law had no map, and lacked as much.
+// The bound of a law without a map that would lack as much damping.
 PassivityBound CandidateSettler::behind_curve(MotorConstants motor, double damping) {
   const PortDevice at_tool = device_.at_tool();
   const SampledLoop tool = sampled_loop(at_tool, loop_.sample_period);
@@ -248,8 +248,8 @@ void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
   if (!device_.is_ideal()) merit.largest_error = felt(merit.state_input).largest(candidate.damping, added_in(merit));
 }
 
-// With what the storage function may need beyond the bound over frequencies, which at the end of the brake's reach
-// decides whether there is a certificate.
+// Includes what the storage function may need beyond the bound over frequencies: near the brake's limit that decides
+// whether there is a certificate.
 bool CandidateSettler::is_within_brake(double damping, PassivityBound needed) const {
   const double largest_brake = damping + (slips_ ? slips_->largest_brake : 0);
   const double reach = device_.is_ideal() ? largest_brake : loop_.max_damping;
@@ -278,7 +278,7 @@ void CandidateSettler::make_room(Candidate& candidate) {
   settle_at(candidate);
 }
 
-// The need is a convex function of b: each frequency's is, and the largest of convex functions.
+// The needed damping is convex in b, as the largest of functions that are convex in b, one for each frequency.
 std::optional<double> CandidateSettler::largest_fitting(StateInput input, double most) {
   const double available = assured_damping(loop_, loop_.max_damping).convert_to<double>() / (1 + proof_reserve);
   const auto lack = [&](double damping) { return bound(input, damping, search_terms).needed - available; };

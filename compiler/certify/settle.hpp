@@ -31,15 +31,15 @@ class CandidateSettler {
   };
   ErrorOverBand error_over_band(const Candidate& candidate, std::optional<double> added = std::nullopt);
 
-  // Gives a candidate another damping; what depends on the loop is left to settle() and settle_at().
+  // Gives a candidate another damping, without what settle() and settle_at() compute.
   void place(Candidate& candidate, double damping);
-  // settle() without a choice: of the damping and the state input that the candidate has.
+  // Like settle(), but keeps the candidate's damping and state input.
   void settle_at(Candidate& candidate);
   // By default the extra damping that jitter needs beyond what is necessary (proved_bound.hpp) is looked up at the
   // damping that settle() chooses; after this call it is taken to be `gap`.
   void assume_jitter_gap(double gap);
-  double last_jitter_gap() const { return gap_.value_or(1); }  // of the candidate that was settled last
-  // The largest error over the band of what is felt of a candidate with so much added to its damping [N·s/m], [1].
+  double last_jitter_gap() const { return gap_.value_or(1); }  // for the candidate that was settled last
+  // The largest error over the band of what is felt [1], with `added` on top of the candidate's damping [N·s/m].
   double largest_error(const Candidate& candidate, double added);
 
  private:
@@ -72,10 +72,10 @@ class CandidateSettler {
   std::optional<SlipMotor> slips_;
   std::map<StateInput, std::optional<MotorConstants>> motors_;
   std::map<StateInput, std::unique_ptr<FeltError>> felt_;
-  std::map<std::pair<StateInput, double>, double> looks_;  // at the gap of jitter, by damping
+  std::map<std::pair<StateInput, double>, double> looks_;  // gaps that jitter causes, by damping
   std::vector<CurveStretch> curve_stretches_;              // of the network's map, on the device
-  std::map<StateInput, double> gaps_;                      // of the candidate that is settled
-  std::optional<double> gap_;                              // of its state inputs that have not been looked at
+  std::map<StateInput, double> gaps_;                      // for the present candidate
+  std::optional<double> gap_;                              // for state inputs without an entry in gaps_
   bool looks_at_gaps_ = true;
 };
 

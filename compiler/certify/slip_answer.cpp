@@ -24,7 +24,7 @@ class JoinedEnds {
   void tie(Pair ends, double stiffness) {
     if (stiffness != 0) ties_.push_back({ends, stiffness});
   }
-  // A force that pulls both together. In the order of the columns of row().
+  // Adds a force that pulls both ends together. The order is that of the columns of row().
   void pull(Pair ends) { pulls_.push_back(ends); }
 
   // x of every inner end: L x = g Δu − the pulls. Where no tie leads from an end to tool or ground its pulls are in
@@ -149,7 +149,7 @@ SlipAnswer slip_answer(const Coupling& coupling, bool is_free) {
   return answer;
 }
 
-// The tool pushes the last inner end of one that is pushed.
+// In a network that the tool pushes, it pushes the last inner end.
 SlipAnswer slip_answer(const SlipNetwork& network, bool is_free) {
   JoinedEnds ends;
   const int count = network.node_count, inner = network.is_pushed() && !is_free ? count - 1 : count;

@@ -1,5 +1,5 @@
-// How the blocks between coupled slips answer a step, whatever the slips do: each slip is replaced by its force, which
-// is within ± its yield force both where it holds and where it gives way. What is left is linear.
+// How the blocks between coupled slips answer a step. Each slip is replaced by its force, which is within ± its yield
+// force whether it holds or gives way; what is left is linear.
 #pragma once
 
 #include <vector>
@@ -17,12 +17,12 @@ struct SlipAnswerRow {
 
 struct SlipAnswer {
   std::vector<SlipAnswerRow> moved;  // δ of every block of a tree, or how far every inner end of a network moves
-  SlipAnswerRow force;               // that opposes the tool, or the surface that it touches
+  SlipAnswerRow force;               // force that opposes the tool, or the surface that it touches
   SlipAnswerRow surface;             // how far that surface moves
   std::vector<double> yields;        // of the slips [N]
 };
 
-// `is_free`: of a surface that the tool does not touch, so that no force acts on it.
+// `is_free`: for a surface that the tool does not touch, so that no force acts on it.
 SlipAnswer slip_answer(const Coupling& coupling, bool is_free);
 SlipAnswer slip_answer(const SlipNetwork& network, bool is_free);
 

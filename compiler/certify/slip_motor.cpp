@@ -30,7 +30,7 @@ std::vector<Real> feedthroughs(const ComponentSplit& split) {
   return all.empty() ? std::vector<Real>{0} : all;
 }
 
-// Whether the motor makes up for a brake whose coil lags: under the ramped law it does not.
+// Whether the motor adds what a lagging coil does not make yet: not under the ramped law.
 bool may_fall_short(const SlipDecomposition& slips) {
   const std::vector<const ComponentSplit*> all = slips.all();
   return slips.coil_share < 1 && std::any_of(all.begin(), all.end(), [](const ComponentSplit* split) {
@@ -43,9 +43,8 @@ class Sum {
   Sum(const Network& network, const CutSettings& settings, double encoder_step, ScalarType scalar)
       : network_(network), settings_(settings), half_step_(encoder_step / 2), margin_(1 + 16 * unit_roundoff(scalar)) {}
 
-  // Every part has a cut: where slips alone join tool and ground the force is not unique, and the network was refused.
-  // `split`: what is the brake's; nothing of a part behind a contact, where the brake makes some of the dampers' force
-  // or, in the worst case, none.
+  // Every part has a cut: networks in which slips alone join tool and ground were refused. `split`: the brake's part.
+  // It is empty for a part behind a contact, where in the worst case the brake makes none of the dampers' force.
   void add(const NormalTree& component, const ComponentSplit& split) {
     const std::vector<Real> shares = feedthroughs(split);
     add(least_cut(component, settings_).value());
@@ -59,8 +58,8 @@ class Sum {
     add_brake(split);
   }
 
-  // The brake has the dampers while the tool touches, and not while it is free. What it has earned it has earned since
-  // the touch.
+  // The brake makes the dampers' force while the tool touches, and nothing while it is free. A ramp starts anew at
+  // every touch.
   void add_behind_contact(const LinearForm& linear, double brake, double behind_slips) {
     add(cut_of(linear, settings_));
     held_gain_ += linear.static_stiffness;
@@ -74,12 +73,12 @@ class Sum {
     motor_.largest_brake = brake + behind_slips;
   }
 
-  // What a ramp has earned is paid for by the brake's own excess; a steady law's comes out of its constant b.
+  // The brake's own excess covers what a ramp takes back; what a steady law takes back comes out of its constant b.
   void add_compensation(const ComponentSplit& split) {
     (split.law == SlipLaw::steady ? motor_.compensation : motor_.held_compensation) += split.largest_compensation();
   }
 
-  // (b of the regime less b) v̂ while the coil is on its way, at most `most`.
+  // The motor adds (b of the regime less b) v̂ while the coil lags, at most `most`.
   void make_up(double most) { motor_.compensation += std::min(most, motor_.largest_brake - motor_.least_brake); }
 
   SlipMotor result() {
@@ -119,7 +118,7 @@ class Sum {
   Real half_step_;  // Δ/2 [m]
   double margin_;
   Cut cut_;
-  Real dampers_ = 0;  // that cross it, the brake's with them
+  Real dampers_ = 0;  // dampers across the cut, with the brake's part
   Real held_gain_ = 0;
   SlipMotor motor_;
 };

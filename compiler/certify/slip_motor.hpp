@@ -1,8 +1,8 @@
-// What the motor makes behind slips and contacts, as far as passivity asks about it (theory, sections 5 and 6).
+// What the motor makes behind slips and contacts, reduced to what passivity depends on (theory, sections 5 and 6).
 //
-// m_k = f_k − x_k Δu_k/h, where x_k ≤ b∞ of the regime is the brake's. A slip takes energy up, and so does a contact,
-// whose f ≥ 0, gap ≥ 0 and f·gap = 0 make f Δs ≤ f Δu. Of any cut (cut.hpp), with M = L − x e eᵀ ⪰ 0 the dampers'
-// Laplacian less what is the brake's, in a regime's motions y,
+// m_k = f_k − x_k Δu_k/h, where the brake makes x_k ≤ b∞ of the regime. A slip takes energy, and so does a contact:
+// from f ≥ 0, gap ≥ 0 and f·gap = 0 follows f Δs ≤ f Δu. For any cut (cut.hpp), with M = L − x e eᵀ ⪰ 0 the dampers'
+// Laplacian less the brake's part, and y the motions in a regime,
 //     eᵀM′y′ Δu − ½ y′ᵀM′y′ − eᵀM y Δu − ½ yᵀM y ≤ (b∞(cut) − ½ (x + x′)) Δu²
 // so that for any motion, any jitter up to T_max, whatever slides, sticks, touches or lets go, a constant damping of
 //     β T_max + (b∞(cut) − min x) T_max/h
@@ -13,8 +13,8 @@
 // felt over the hold. Where no damper crosses the cut, β takes 2s − 1: the work of all parts on the increments of their
 // forces, Δp δ, sums to no less than nothing for slips, dampers and contacts, and on the cut to Σ (1 + a) ΔF²/2c at
 // least, so that ‖ΔF‖ ≤ 2β ‖Δu‖. A motor that adds −κ v̂ with a constant κ, and ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, adds κ γ T_max/h.
-// What a ramp takes back is (1 − ε) (h/T_max) of the brake's own excess in every sample that the estimate knows of, and
-// adds nothing.
+// A ramp takes back no more than (1 − ε) (h/T_max) of the brake's own excess in every sample that the estimate depends
+// on; so it adds nothing.
 #pragma once
 
 #include <optional>
@@ -27,16 +27,16 @@
 namespace dashpot::compiler {
 
 struct SlipMotor {
-  bool behind_contact = false;       // all of the network, and the brake is off while the tool is free
+  bool behind_contact = false;       // the whole network is, and the brake is off while the tool is free
   double stiffness = 0;              // β of the cut [N/m], rounded up beyond what rounding of the constants does
   double damping = 0;                // b∞(cut) − min x [N·s/m], the same
   bool springs_alone = true;         // no damper crosses the cut
-  double held_compensation = 0;      // β v̂ of a ramp, which the brake's own excess pays for at any time [N·s/m]
-  double compensation = 0;           // of any other estimate of the velocity [N·s/m]
-  bool lets_go_by_estimate = false;  // of a contact: the command ends where f′ + b∞ v̂ < 0
-  double held_gain = 0;  // Σ|h_j| of what is behind slips or a contact, every slip holding (held_slips.hpp) [N/m]
-  bool slides_within_step = false;  // the encoder's step alone can make a slip give way
-  double least_brake = 0;           // of what is behind slips, in every regime [N·s/m]
+  double held_compensation = 0;      // largest β of ramps, which the brake's own excess covers [N·s/m]
+  double compensation = 0;           // gain of any other use of the velocity estimate [N·s/m]
+  bool lets_go_by_estimate = false;  // a contact's command ends where f′ + b∞ v̂ < 0
+  double held_gain = 0;              // Σ|h_j| of the parts behind slips or a contact while all slips hold [N/m]
+  bool slides_within_step = false;   // the encoder's step alone can make a slip give way
+  double least_brake = 0;            // behind slips, in any regime [N·s/m]
   double largest_brake = 0;
 };
 
@@ -44,13 +44,14 @@ struct SlipMotor {
 std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& form, const Decomposition& decomposition,
                                     const Choices& choices, const SampledLoop& loop);
 
-// `linear`, of what reaches ground without a slip; nothing behind a contact, where the slips' motor is of all of it.
+// `linear`, the motor of the part that reaches ground without a slip; an empty one behind a contact, where SlipMotor
+// covers everything.
 MotorConstants motor_beside(const std::optional<SlipMotor>& slips, const MotorConstants& linear);
 
-// s, not below it; without the lag where two samples may follow at once, of which nothing is proved.
+// Upper bound of s; without the lag if two samples may follow at once, where nothing is proved anyway.
 double lateness(const SampledLoop& loop);
 
-// What β counts for in a loop that is late: 2s − 1 or s², not below it.
+// The factor of β in a loop that is late: 2s − 1 or s², rounded up.
 double stiffness_share(const SlipMotor& motor, const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

@@ -15,7 +15,7 @@ std::vector<double> after_steps(Magnitudes& run, const std::vector<double>& stat
   return run.states();
 }
 
-// Magnitudes grow by a geometric series towards the fixed point, each state at the pace of the slowest that feeds it.
+// Extrapolates the bounds towards their fixed point, as a geometric series with the pace of each state's slowest input.
 std::vector<double> extrapolated(const std::vector<double>& x0, const std::vector<double>& x1,
                                  const std::vector<double>& x2) {
   std::vector<double> limit = x2;
@@ -30,8 +30,8 @@ bool is_in_box(const std::vector<double>& states, const std::vector<double>& box
   return std::equal(states.begin(), states.end(), box.begin(), [](double a, double b) { return a <= b; });
 }
 
-// A little wider, as the scalar type has it. What follows others in the same step, and has no room of its own, is
-// raised after them.
+// Widens the bounds a little, in the scalar type. States that a step computes from others get their bounds from those
+// afterwards.
 std::vector<double> widened(Magnitudes& run, const UpdateLaw& law, std::vector<double> states) {
   constexpr double room = 1 + 1e-6;  // of which a step of the slowest mode takes less than its loss, 1e-6 at least
   for (double& value : states) value *= room;
@@ -51,7 +51,7 @@ Magnitudes anchored(const UpdateLaw& law, const InputRange& range) {
   return Magnitudes(law, range, Detail::choices, run.find_anchors());
 }
 
-// Of all attempts, in statements: a few seconds. A contact on a limited motor has many cases.
+// Limit on all attempts together, in statements: a few seconds. A contact on a limited motor has many cases.
 constexpr std::size_t most_effort = 2'500'000;
 
 StateBox named(const std::vector<double>& states, const Anchors& anchors, const UpdateLaw& law) {

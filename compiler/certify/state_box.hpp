@@ -1,5 +1,5 @@
-// A box of states that a law does not leave while the inputs keep to a range. An emitted header in C states it; the
-// proofs in tests/prove start from it, and prove it again in each step.
+// A box of states that a law does not leave while the inputs stay in a range. An emitted header in C states it; the
+// proofs in tests/prove start from it and show that a step does not leave it.
 #pragma once
 
 #include <map>
@@ -22,17 +22,17 @@ struct InputRange {
 // is more than a hand moves.
 InputRange input_range(const PortDevice& port);
 
-// A force F that what rounding keeps from it, the error e, is carried along with: bounds are those of F + e.
+// A force F whose rounding error e is carried along: bounds are those of F + e.
 struct CarriedError {
   VariableId force, error;
-  VariableId added;  // y, with e, in an update: F ← F + y
+  VariableId added;  // y, which includes e, in an update: F ← F + y
 };
 std::vector<CarriedError> carried_errors(const UpdateLaw& law);
 
 // The name of a state in the emitted class.
 std::string state_name(const Variable& state, std::size_t place);
 
-// Of a state, or of what is left of it when others are taken away, each times its factor.
+// Bounds of a state, or of a state less factor times other states.
 struct StateBounds {
   double low, high;
   std::vector<std::pair<std::string, double>> others = {};  // by state_name()
@@ -45,7 +45,7 @@ using StateBox = std::map<std::string, StateBounds>;
 // step stays within.
 std::optional<StateBox> state_box(const UpdateLaw& law, const InputRange& range);
 
-// The sum of the magnitudes of the terms that the force is made of, in the box [N].
+// Bound of the sum of the magnitudes of the force's terms, in the box [N].
 double sum_of_terms(const UpdateLaw& law, const InputRange& range, const StateBox& box);
 
 }  // namespace dashpot::compiler

@@ -18,15 +18,15 @@ namespace {
 
 namespace checker = dashpot_check;
 
-constexpr std::size_t most_states_in_digits = 30;      // beyond, 50 digits take seconds
-constexpr std::size_t most_states_step_by_step = 100;  // beyond, a step takes seconds
-// Beyond, so does the search of one P for all holds, which rounding ends early besides: it is left for laws of which
-// nothing else is known.
+constexpr std::size_t most_states_in_digits = 30;      // with more, 50 digits take seconds
+constexpr std::size_t most_states_step_by_step = 100;  // with more, a step takes seconds
+// With more, the search of one P for all holds takes seconds too, and rounding often ends it early: it is then tried
+// only for laws for which nothing else is known.
 constexpr std::size_t most_states_in_common = 18, most_states_in_common_at_all = 30;
-// Of what the damping exceeds S(θ) by, the share that is kept for strictness, so that rounding P does not spoil it;
-// hardly any where the states' scales miss a narrow peak and the usual share is more than there is.
+// The share of the excess of the damping over S(θ) that is kept as a margin, so that rounding P does not spoil the
+// proof. The least share is for narrow peaks that the states' scales miss, where the usual one is more than there is.
 constexpr double usual_strictness = 0.25, least_strictness = 0.25e-3;
-constexpr double most_off_in_doubles = 1e-10;  // relative, of a supremum; beyond, it is taken in 50 digits
+constexpr double most_off_in_doubles = 1e-10;  // relative error of a supremum; if it is larger, 50 digits are used
 
 template <class Scalar>
 using Complex = std::complex<Scalar>;
@@ -44,13 +44,13 @@ struct OneHold {
   bool operator==(const OneHold&) const = default;
 };
 
-// κ of a hold that is so many lags long.
+// κ of a hold that is x lags long.
 Real spread_of(const Real& x) {
   const Real q = exp(-x), p = (1 - q) / x;
   return p * ((1 + q) / 2 - p);
 }
 
-// The longest of a device [s].
+// A device's longest hold [s].
 double length_of_longest(const checker::Device& device) {
   return device.sample_period + device.jitter + (device.write_latest - device.write_earliest);
 }
@@ -199,7 +199,7 @@ class Need {
   LateWrite<Scalar> late_;
 };
 
-// Of all states, the least share that is lost in a sample; none where that is below what Scalar can tell from 1.
+// The least share that any state loses in a sample; none if 1 less that share rounds to 1 in Scalar.
 template <class Scalar>
 double least_leak(const Recursion<Scalar>& r) {
   double least = 1;
@@ -208,7 +208,7 @@ double least_leak(const Recursion<Scalar>& r) {
   return least;
 }
 
-// Down to where the slowest state, which is largest next to rest, grows no further.
+// Angles down to where the slowest state, which is largest near rest, grows no more.
 std::vector<double> angles_of_interest(double binding, double least_leak) {
   std::vector<double> angles = {std::numbers::pi};
   for (int i = 0; i < 420; ++i) angles.push_back(std::numbers::pi * std::pow(10.0, -13.5 * i / 420));
@@ -269,7 +269,7 @@ std::optional<Dense<Scalar>> riccati(const Dense<Scalar>& A, const Dense<Scalar>
   const Matrix inverse = R.inverse(), one = Matrix::Identity(n, n);
   Matrix step = A - B * inverse * S.transpose(), G = B * inverse * B.transpose();
   Matrix H = -one * (Scalar(strictness) / Scalar(double(n))) - S * inverse * S.transpose();
-  for (int i = 0; i < 120; ++i) {  // losses down to 2⁻¹⁰⁰ have died away by then
+  for (int i = 0; i < 120; ++i) {  // enough for states that lose 2⁻¹⁰⁰ a sample
     const Eigen::PartialPivLU<Matrix> W(Matrix(one + G * H));
     const Matrix onward = W.solve(step), change = step.transpose() * (H * onward);
     G += step * W.solve(G) * step.transpose();
@@ -322,7 +322,7 @@ std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, con
   return storage;
 }
 
-// Of the estimator in the runtime, to the bit.
+// The coefficients of the runtime's estimator, to the last bit.
 std::vector<double> runtime_coefficients(const velocity_description& v, double T, double step) {
   const double n = std::clamp(v.window, 1u, longest_window);
   switch (v.estimator) {
@@ -343,7 +343,7 @@ std::vector<double> runtime_coefficients(const velocity_description& v, double T
       }
       return all;
     }
-    case estimator_kind::foaw: {  // of every window that it may choose
+    case estimator_kind::foaw: {  // for every window that it may choose
       std::vector<double> all;
       for (double m = 1; m <= n; ++m) all.push_back(v.best_fit ? 6 / (m * (m + 1) * (m + 2) * T) : 1 / (m * T));
       return all;
@@ -377,7 +377,7 @@ std::pair<double, double> largest_need(const Recursion<Scalar>& r, const OneHold
 
 class StorageSearch {
  public:
-  // Without `is_proved` the exact check is left out: what is found is an estimate.
+  // Without `is_proved` the exact check is left out, and the result is an estimate.
   StorageSearch(const checker::Program& program, const checker::LoopForm& loop, const checker::Device& device,
                 const SampledBound& bound, bool is_proved)
       : program_(program),
@@ -393,7 +393,7 @@ class StorageSearch {
     const double angle = 2 * std::numbers::pi * bound.frequency * device.sample_period;
     const Recursion<double> r = recursion<double>(loop, lag_);
     std::tie(supremum_, angle_) = largest_need(r, lag_, device, attained, angle);
-    // A pole next to −1 keeps few digits in doubles.
+    // A pole close to −1 has few digits in doubles.
     const Recursion<Real> exact = recursion<Real>(loop, lag_in_digits_);
     const double there = double(Need<Real>(exact, lag_in_digits_, device).at(angle_, Response<Real>(exact).at(angle_)));
     if (!(std::abs(supremum_ - there) <= most_off_in_doubles * supremum_))
@@ -436,8 +436,8 @@ class StorageSearch {
     return StorageProof{least, storage, true};
   }
 
-  // The P of the longest hold, where it serves all others too: at as little more than the supremum as is found soon.
-  // Nothing where that would be `most` or more.
+  // The P of the longest hold, if it serves all others too, with as little more damping than the supremum as is found
+  // quickly. Nothing if that would be `most` or more.
   std::optional<StorageProof> longest_for_all(double most) const {
     constexpr double first_tried = 1e-4, most_tried = 100;  // beyond the supremum, relative to it
     const auto next = [&] { return longest_fails_ > 0 ? 2 * longest_fails_ : first_tried; };
@@ -470,7 +470,7 @@ class StorageSearch {
            checker::proves(program_, device_, storage, damping);
   }
 
-  // As doubles tell.
+  // Checked in doubles only.
   std::optional<StorageProof> longest_for_all_at(double excess) const {
     const double damping = supremum_ * (1 + excess);
     if (!(damping > 0)) return std::nullopt;
@@ -492,7 +492,7 @@ class StorageSearch {
     return P;
   }
 
-  // Those that doubles do not tell apart are one.
+  // All holds that differ in doubles.
   const std::vector<std::pair<OneHold<double>, Recursion<double>>>& all_holds() const {
     if (holds_.empty())
       for (const checker::Hold& hold : checker::holds(device_)) {
@@ -514,7 +514,8 @@ class StorageSearch {
     return all;
   }
 
-  // Of one hold, in the coordinates of the search: states over `scale`, inputs over a unit, dampings over `damping`.
+  // The inequality of one hold, in the coordinates of the search: states over `scale`, inputs over a unit, dampings
+  // over `damping`.
   HoldInequality inequality(const OneHold<double>& hold, const Recursion<double>& r, const std::vector<double>& scale,
                             double damping) const {
     const double unit = std::sqrt(hold_ / damping);
@@ -553,7 +554,7 @@ class StorageSearch {
   std::optional<StateScales<double>> scales_;
   mutable std::optional<StateScales<Real>> scales_in_digits_;                 // when first asked for
   mutable std::vector<std::pair<OneHold<double>, Recursion<double>>> holds_;  // all that differ, when first asked for
-  mutable double longest_fails_ = 0;  // beyond the supremum, relative to it: where longest_for_all() last found nothing
+  mutable double longest_fails_ = 0;  // relative excess over the supremum at which longest_for_all() last found nothing
 };
 
 // Empty where the estimator's coefficients, as rounded, are not what the checker derives.
@@ -666,7 +667,7 @@ checker::Program checked_program(const MotorConstants& motor) {
 
 namespace {
 
-// What `find` finds for a motor on a device with its estimator, if there is anything to find.
+// The result of `find` for a motor on a device with its estimator, if that can be searched at all.
 template <class Find>
 std::optional<StorageProof> found_proof(const MotorConstants& motor, const SampledLoop& loop, bool is_proved,
                                         Find find) {

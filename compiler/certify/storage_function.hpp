@@ -5,7 +5,7 @@
 // that frequency, is one, and asks for M ⪰ diag(Q, 0) with Q = I/(4n): at every frequency that costs at most a quarter
 // of what is left over, so there is always a P, with much room where states are slow. P is minus the stabilising
 // solution of a Riccati equation, by doubling. What is found is rounded to doubles, or to two for each entry
-// where one is too coarse, and then checked with integers: nothing here has to be believed.
+// where one is too coarse, and then checked with integers: the search itself need not be trusted.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@
 
 namespace dashpot::compiler {
 
-// States, at most: beyond, a search takes seconds, and the bound over frequencies stands alone.
+// With more states a search takes seconds: the bound over frequencies is then used alone.
 inline constexpr std::size_t most_storage_states = 240;
 
 struct StorageProof {
@@ -25,7 +25,7 @@ struct StorageProof {
   bool in_doubles = true;          // else the search needed 50 digits
 };
 
-// The loop as the checker takes it: with the coefficients that the runtime's estimator has.
+// The loop in the checker's form, with the coefficients of the runtime's estimator.
 dashpot_check::Device checked_device(const SampledLoop& loop);
 
 // A motor as the checker would read it from a header.

@@ -64,7 +64,7 @@ IntegerMatrix scaled(const RationalMatrix& matrix, unsigned digits) {
   return result;
 }
 
-// Rounded down, as Z.shiftr does.
+// Drops the last digits, rounding down as Z.shiftr does.
 Integer without_last(const Integer& value, unsigned digits) {
   if (value >= 0) return value >> digits;
   return -((-value + (Integer(1) << digits) - 1) >> digits);
@@ -129,7 +129,7 @@ std::optional<std::string> witness_of(const std::vector<IntegerMatrix>& all, int
   return std::nullopt;
 }
 
-// With as few digits as do: Coq's time is the square of them.
+// With as few digits as suffice: Coq's time grows with their square.
 std::optional<std::string> witness(const std::vector<IntegerMatrix>& all, int most) {
   for (const int fraction : {most / 2, most * 3 / 4, most})
     if (auto found = witness_of(all, fraction)) return found;
@@ -201,7 +201,7 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   const IntegerMatrix stored = scaled(P, P_digits);
   const std::vector<Integer> lacking = lags ? scaled(E, S_digits)[0] : std::vector<Integer>(n);
   const Integer stiffness = scaled(loop.stiffness, S_digits);
-  Integer magnitude = 0;  // of all of P
+  Integer magnitude = 0;  // of the entries of P
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) magnitude += abs(stored[i][j]);
   // β and γ of Loop.v. Of a late command b (w − c)²/A + b c²/D with c = ρ + s w, where what rounding s leaves of w ρ is
@@ -333,11 +333,11 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
 std::optional<std::string> coq_instance(const std::string& name, const PassivityBound& bound,
                                         const std::optional<MotorConstants>& motor, SampledLoop loop,
                                         bool joins_holds) {
-  const bool is_late_twice = loop.write_latest > 0 && loop.amplifier_lag > 0;  // two inputs beside w
+  const bool is_late_twice = loop.write_latest > 0 && loop.amplifier_lag > 0;  // there are then two inputs besides w
   if (!motor || bound.proof == Proof::none || loop.motor_slew > 0 || is_late_twice) return std::nullopt;
   const bool is_one_recursion =
       !adaptive_window_gain(loop) && loop.velocity.estimator != estimator_kind::interval_difference;
-  if (motor->follows_estimate() && !is_one_recursion) return std::nullopt;  // of which the theorem is
+  if (motor->follows_estimate() && !is_one_recursion) return std::nullopt;  // the theorem is only for one recursion
   if (bound.constant_period_only) loop = punctual(loop);
   std::optional<StorageProof> proof;
   if (bound.storage) proof = {bound.needed, *bound.storage};

@@ -31,7 +31,7 @@ class BoxChoice {
     EvaluatedOption option;
   };
 
-  // Empty where no such law can be written.
+  // Empty if no such law can be written.
   std::optional<Weighed> weighed(const Candidate& faithful, double damping) {
     Weighed result{faithful, {}};
     settler_.place(result.candidate, damping);
@@ -71,9 +71,9 @@ class BoxChoice {
 void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
                      const Choices& choices, const PortDevice& port, double rate) {
   if (!has_tunables(network)) return;
-  constexpr int halvings = 3;  // of the way to the next larger damping that was tried
+  constexpr int halvings = 3;  // of the interval to the next larger damping that was tried
   constexpr double none = std::numeric_limits<double>::infinity();
-  constexpr double same = 1e-6;  // relative: one damping
+  constexpr double same = 1e-6;  // relative: two dampings that differ by less are one
   const Candidate& faithful = decomposition.choice();
   const double feedthrough = to_double(form.linear.feedthrough_damping);
   const double most = std::min(feedthrough, port.max_damping().value_or(feedthrough));

@@ -16,7 +16,7 @@ inline constexpr const char* at_once = "the amplifier lags, and the jitter is a 
 inline constexpr const char* overtaken =
     "a command may act after the next sample is read: \"write_delay\" and \"jitter\" are more than a period together";
 
-// Of an estimator that nothing is known of.
+// The reason if nothing is known of the estimator.
 std::string not_proved_for(const SampledLoop& loop);
 
 // The same bound if the device's own damping is enough for a free tool, for which the brake is off; else one that is

@@ -18,7 +18,7 @@ bool is_damper(const NormalTree& tree) {
   return tree.kind == NormalTree::Kind::block && tree.form.static_stiffness == 0 && tree.form.modes.empty();
 }
 
-// A slip and a damper, and nothing else.
+// Whether the part is a slip and a damper, and nothing else.
 bool is_damped_slip(const NormalTree& tree) {
   return tree.kind == NormalTree::Kind::parallel && tree.children.size() == 2 &&
          std::any_of(tree.children.begin(), tree.children.end(), is_slip) &&
@@ -68,7 +68,7 @@ bool drop_dampers(NormalTree& tree) {
   return tree.kind == NormalTree::Kind::series && drop_in_series(tree);
 }
 
-// What a part is to the rest: rigid, a constant force, or a form.
+// How a part acts on the rest: rigid, as a constant force, or as a linear form.
 struct Answer {
   enum class Hold { rigid, constant, form } hold;
   LinearForm form = {};
@@ -94,8 +94,8 @@ class RegimeForm {
     return slides_[static_cast<std::size_t>(std::find(slips_.begin(), slips_.end(), slip.elements) - slips_.begin())];
   }
 
-  // Beside each other forms add up, a constant force adds nothing to them, and what is rigid decides; in series their
-  // reciprocals do, and the other two change places.
+  // In parallel forms add up, a constant force adds nothing, and a rigid part makes all rigid. In series the
+  // reciprocals add up, a rigid part adds nothing, and a constant force is the force of all.
   Answer joined(const NormalTree& tree) const {
     const bool in_series = tree.kind == NormalTree::Kind::series;
     const auto [neutral, deciding] = in_series ? std::pair(Answer::Hold::rigid, Answer::Hold::constant)

@@ -10,11 +10,11 @@
 
 namespace dashpot::compiler {
 
-// If damped slips are in series, the weakest alone loses its damper: without theirs the others would never slide. Empty
+// If damped slips are in series, only the weakest loses its damper: the others would never slide without theirs. Empty
 // if no damper lies beside a slip.
 std::optional<NormalTree> without_dampers_beside_slips(NormalTree component);
 
-// The same of a part that is no tree, by its elements: those that join the ends of a slip.
+// The same for a part that is no tree, given by its elements: drops the dampers that join the ends of a slip.
 std::optional<std::vector<std::size_t>> without_dampers_beside_slips(const Network& network,
                                                                      const std::vector<std::size_t>& elements);
 

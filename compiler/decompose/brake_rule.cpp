@@ -11,7 +11,7 @@ namespace {
 
 bool is_at_tool(const Element& element) { return element.a == tool || element.b == tool; }
 
-// The dampers at the tool once every observed child stands there.
+// The dampers that are next to the tool when every observed child is placed there.
 std::vector<std::size_t> dampers_at_tool(const Network& realisation) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < realisation.elements.size(); ++i) {
@@ -27,7 +27,7 @@ double sum_of(const std::vector<std::size_t>& dampers, const Network& network) {
   return sum;
 }
 
-// A damper between tool and ground is the brake's, also where its value is zero to begin with.
+// A damper between tool and ground is always the brake's, even if its value is zero at first.
 void add_direct_dampers(const Network& network, std::vector<std::size_t>& dampers) {
   for (std::size_t i = 0; i < network.elements.size(); ++i) {
     const Element& element = network.elements[i];
@@ -59,7 +59,8 @@ BrakeRule observed_rule(const Network& network, const Candidate& choice, double 
   return {BrakeFollows::observed, 0, std::move(dampers), {}, text};
 }
 
-// The damping that was found at the default values is held, but never above the network's viscosity if it is not there.
+// Keeps the damping that was chosen at the default values; unless it was above the network's viscosity there, it never
+// exceeds it.
 BrakeRule faithful_rule(const Decomposition& decomposition) {
   const Candidate& choice = decomposition.choice();
   if (choice.velocity_gain == 0) return {BrakeFollows::feedthrough, 0, {}, {}, "the feedthrough damping"};
@@ -93,7 +94,7 @@ BrakeRule uncapped_rule(const Network& network, const Decomposition& decompositi
 
 BrakeRule brake_rule_of(const Network& network, const Decomposition& decomposition, const PortDevice& device) {
   BrakeRule rule = uncapped_rule(network, decomposition, device.reference_frequency());
-  // Where a surface can be left, more would have to be compensated in the samples of a touch.
+  // With a contact, more damping would have to be compensated in the samples of a touch.
   if (network.contact && rule.follows != BrakeFollows::constant)
     rule = {BrakeFollows::feedthrough, 0, {}, {}, "the feedthrough damping"};
   rule.max_damping = device.max_damping();

@@ -13,9 +13,9 @@ namespace dashpot::compiler {
 
 struct BrakeRule {
   BrakeFollows follows;
-  double damping;  // of a rule that has a constant [N·s/m]
+  double damping;  // the constant, if the rule has one [N·s/m]
   std::vector<std::size_t>
-      observed;  // dampers whose sum b is, of BrakeFollows::observed; indices into Network::elements
+      observed;  // for BrakeFollows::observed: the dampers whose sum is b, as indices into Network::elements
   std::optional<double> max_damping;  // what the brake can give [N·s/m]
   std::string text;                   // one clause for people
 };

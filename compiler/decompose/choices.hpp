@@ -14,7 +14,7 @@ enum class ScalarType { float64, float32 };
 // What the choice is compared with in reports: nothing if it is only a trial; other candidates; or also the choices on
 // devices with the assumed values varied, which takes as long as everything else.
 enum class Compared { nothing, candidates, variations };
-// Of the machine that rolled loops are laid out for.
+// Vector registers of the machine that rolled loops are laid out for.
 enum class VectorRegisters { none, sse2, avx2, avx512, neon };
 
 std::string_view name_of(Scheme scheme);              // "exact", "backward-euler"
@@ -30,11 +30,11 @@ struct Choices {
   std::optional<StateInput> state_input;  // empty: auto
   // A name of theory, section 4, or a damping [SI]; empty: `faithful` on a device and with slips, else `paper`.
   std::variant<std::string, double> decomposition = "";
-  double tolerance = 0.05;  // of what is felt, that `faithful` may err by [1]
+  double tolerance = 0.05;  // error of what is felt that `faithful` may allow [1]
   Compared compared = Compared::candidates;
   ScalarType scalar = ScalarType::float64;
   VectorRegisters registers = VectorRegisters::sse2;  // sixteen bytes: what every x86-64 and every AArch64 has
-  bool guards_each_sample = false;                    // against subnormals, never in turns: for batches of many points
+  bool guards_each_sample = false;  // tests every force at every sample for subnormals, as batches of many points do
 };
 
 inline constexpr double default_rate = 1000;  // [Hz]

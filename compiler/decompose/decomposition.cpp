@@ -74,7 +74,7 @@ class Decomposer {
     candidate.largest_error = best.largest_error;
     candidate.extra_damping_any_delay = best.extra_damping_any_delay;
     if (split.name == "quietest-passive" &&
-        best.extra_damping_any_delay <= 1e-9 * candidate.damping)  // but for rounding
+        best.extra_damping_any_delay <= 1e-9 * candidate.damping)  // apart from rounding
       candidate.reason += "; passive under any delay";
     candidate.velocity_gain = std::abs(to_double(form_.feedthrough_damping) - candidate.damping);
     if (const std::optional<double> noise = device_.velocity_noise())
@@ -169,7 +169,7 @@ bool refuse_impossible_choices(const Network& network, const Choices& choices, c
   return refused;
 }
 
-constexpr double overwhelming = 1e4;  // a brake that is off by 1 % is then off by a hundred times the force
+constexpr double overwhelming = 1e4;  // an error of 1 % in the brake is then a hundred times the network's force
 
 void warn_about_share(const Candidate& chosen, const Network& network, const LinearForm& form, const PortDevice& device,
                       Diagnostics& diagnostics) {
@@ -190,7 +190,7 @@ void warn_about_choice(const Decomposition& all, const Network& network, const L
     diagnostics.report<DiagnosticCode::damping_capped>(network.name_span, chosen.name, chosen.wanted_damping,
                                                        chosen.damping);
   const double viscosity = to_double(zero_frequency_damping(form));
-  // What `faithful` gives beyond it is told with the choice.
+  // For `faithful` this is explained with the choice.
   if (chosen.name != "faithful" && chosen.damping > viscosity * (1 + 1e-12)) {
     diagnostics.report<DiagnosticCode::injects_power>(network.name_span, chosen.name, chosen.damping, viscosity);
     diagnostics.note<DiagnosticCode::injects_power_remedy>({});
@@ -271,7 +271,7 @@ bool is_same(const Candidate& one, const Candidate& other) {
 std::string candidate_row(const Candidate& c, const char* mark) {
   const auto number = [](double value) { return fmt::format("{:.5g}", value); };
   const auto or_dash = [&](const std::optional<double>& value) { return value ? number(*value) : "-"; };
-  // A damping that was given is called as it was written.
+  // A damping that the user gave is shown as it was written.
   const bool is_given = c.name == fmt::format("{}", c.damping) && c.name.size() < 12;
   return fmt::format("{:<17}{:>12}  {:<9}{:>12}{:>12}{:>12}{:>12}{:>12}\n", c.name + mark,
                      is_given ? c.name : number(c.damping), name_of(c.state_input), number(c.velocity_gain),
@@ -366,7 +366,7 @@ std::string legend(bool has_device) {
 
 namespace {
 
-// The gap at the tool for a gap behind the map; 0 if the map does not reach so far.
+// The gap at the tool that corresponds to a gap in w; 0 if the map does not reach so far.
 double gap_at_tool(const MotionMap& map, double gap) {
   double inside = 0, beyond = map.reach;
   if (map.value_at(beyond) < gap) return 0;

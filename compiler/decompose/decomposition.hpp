@@ -19,10 +19,10 @@ struct StateInputMerit {
   StateInput state_input;
   double largest_error;  // max |Z_rendered − Z|/|Z| over the device's band; once settled, of what is felt [1]
   std::optional<double> extra_damping_any_delay;  // [N·s/m]; empty: not computed
-  std::optional<double> minimum_damping = {};     // [N·s/m]; filled by certify/; empty: nothing is proved
+  std::optional<double> minimum_damping = {};     // [N·s/m]; filled in by certify/; empty: nothing is proved
   std::string proof = "";                         // what the minimum damping rests on, "hold" or "sampled"
-  bool is_within_brake = false;                   // b, the minimum damping and what its proof may need beyond it
-  double binding_frequency = 0;                   // where the sampled loop needs most [Hz]
+  bool is_within_brake = false;                   // the brake covers b, the minimum damping and a reserve for its proof
+  double binding_frequency = 0;                   // at which the sampled loop needs most damping [Hz]
 };
 
 struct Candidate {
@@ -30,7 +30,7 @@ struct Candidate {
   double damping;         // b, what the brake is asked for [N·s/m] or [N·m·s/rad]
   double wanted_damping;  // before capping at what the brake can give
   StateInput state_input;
-  double velocity_gain;               // |b∞ − b|, of the estimate into the motor [N·s/m]
+  double velocity_gain;               // |b∞ − b|, gain from the estimate to the motor [N·s/m]
   double largest_error;               // of the chosen state input [1]
   std::optional<double> motor_noise;  // rms motor force from quantisation through the estimate [N]; empty: not linear
   std::optional<double> extra_damping_any_delay;  // [N·s/m]
@@ -38,17 +38,17 @@ struct Candidate {
   std::optional<bool> certified;                  // the brake can give both; without a device, nothing is to be added
   std::vector<StateInputMerit> state_inputs;      // the pairs that were compared
   std::string reason;
-  std::optional<FaithfulChoice> faithful = {};  // of the candidate of this name, what it was chosen by
+  std::optional<FaithfulChoice> faithful = {};  // only for the candidate `faithful`: how it was chosen
   std::vector<double> error_over_band = {};     // of what is felt, at Decomposition::error_frequencies [1]
 
   bool capped() const { return damping < wanted_damping; }
-  std::string why() const;  // `reason`, or what has become of it where the damping was lowered
+  std::string why() const;  // `reason`, adapted if the damping was lowered
 };
 
-// Where the chosen b lies while the values that the device file assumes are varied one by one.
+// How far the chosen b moves while the values that the device file assumes are varied one by one.
 struct ChoiceMoves {
   double least, most;  // [N·s/m]
-  std::string by;      // the key that moves it most; empty where none does
+  std::string by;      // the key that moves it most; empty if none does
 };
 
 struct Decomposition {
@@ -60,7 +60,7 @@ struct Decomposition {
   std::string in_words;                   // what was chosen on a device, and what that gains and costs; whole sentences
   std::string reason;                     // why the chosen state input
   double encoder_step = 0;                // at the tool; 0 of an ideal device [m] or [rad]
-  SlipDecomposition slips;                // of what is behind slips
+  SlipDecomposition slips;                // the split of the parts behind slips
   LinearForm realisation;  // the canonical form with the spring shares of the observer's realisation, for `nodal`
 
   const Candidate& choice() const { return candidates[chosen]; }
@@ -79,7 +79,7 @@ void warn_about_choice(const Decomposition& decomposition, const Network& networ
 // What decided between position, velocity and nodal.
 std::string reason_for_input(const Candidate& chosen, const Network& network, const Choices& choices,
                              bool device_is_ideal);
-// Why there was only one.
+// Why only one state input was possible.
 std::string reason_for_only_input(const Candidate& chosen, const Network& network);
 
 // True, with a diagnostic, for choices that no network can satisfy: nodal states with the exact scheme.
@@ -93,7 +93,7 @@ std::string chosen_text(const Decomposition& decomposition);
 // What the columns of the candidates mean, a line or two each.
 std::string legend(bool has_device);
 
-// What a contact does to the command; empty without one.
+// How a contact changes the command; empty without a contact.
 std::string contact_text(const Decomposition& decomposition, const Network& network);
 
 }  // namespace dashpot::compiler

@@ -31,7 +31,7 @@ inline constexpr double leeway = 1.05;  // on the least reachable error, and on 
 // max(tolerance, 1.05 × least)
 double allowed_error(double tolerance, double least_error);
 
-// Whether the error is allowed, but for rounding.
+// Whether the error is allowed, apart from rounding.
 bool is_within(double error, double allowed);
 
 // Among all options with an error of at most max(`tolerance`, 1.05 × the least reachable), those that are certified

@@ -46,7 +46,7 @@ struct Observed {
   Real damping;
 };
 
-// Children in series that are multiples of one another.
+// Children in series whose responses are constant multiples of one another.
 struct Group {
   std::vector<Observed> members;
   Real compliance_ratio = 0;  // Σ D_first/D_i

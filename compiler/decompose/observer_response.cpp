@@ -12,12 +12,12 @@ constexpr std::size_t places = 16;
 
 ComplexReal inverse(const ComplexReal& d) {
   const Real square = d.real * d.real + d.imaginary * d.imaginary;
-  if (square == 0) return {0, 0};  // at no reference frequency: not asked for
+  if (square == 0) return {0, 0};  // without a reference frequency the value is not used
   return {d.real / square, -d.imaginary / square};
 }
 
 struct Extent {
-  Real least = 0, most = 0;  // zero where there is none
+  Real least = 0, most = 0;  // zero if there are none
   void take(const Real& value) {
     if (value == 0) return;
     least = least == 0 ? value : std::min(least, value);

@@ -10,10 +10,10 @@
 namespace dashpot::compiler {
 namespace {
 
-// What differs by rounding alone is the same.
+// `to`, if the value differs from it by rounding only.
 Real snapped(const Real& value, const Real& to) { return abs(value - to) <= abs(to) * Real("1e-30") ? to : value; }
 
-// So that rounding of the emitted constants, in single precision too, never makes it more.
+// A little less, so that rounding of the emitted constants, also in single precision, never exceeds the limit.
 constexpr double careful = 1 - 1e-6;
 
 }  // namespace
@@ -50,8 +50,8 @@ const Real& PartDecomposer::largest_feedthrough() const {
       ->feedthrough();
 }
 
-// What a regime's observer takes beyond the largest b∞ of all regimes, which the brake keeps at all times. Where no
-// slip slides nothing is gained by it: it changes as soon as one does.
+// How much damping a regime's observer takes beyond the largest b∞ of all regimes, which the brake always keeps. 0
+// while no slip slides: the excess would have to change as soon as one does.
 double PartDecomposer::excess_of(std::size_t i) const {
   return i == 0 ? 0 : std::max(0.0, to_double(regime(i).damping - largest_feedthrough()));
 }
@@ -62,7 +62,7 @@ double PartDecomposer::largest_excess() const {
   return largest;
 }
 
-// Why there is but one law; empty where there are several.
+// Why there is only one law; empty if there are several.
 std::string PartDecomposer::hindrance_to_choice() const {
   if (is_tunable_) return "parameters change while it runs; b is that of their default values";
   return is_listed() ? "" : fmt::format("regimes of {} coupled slips are not listed", part_.regimes.slips.size());

@@ -21,7 +21,7 @@ class PartDecomposer {
  public:
   PartDecomposer(SlipPart part, bool is_tunable, bool behind_contact);
 
-  // All but what is rendered.
+  // Everything except `rendered` and `rendered_elements`.
   ComponentSplit split(const SlipPlan& plan, const PortDevice& device) const;
 
  private:
@@ -36,13 +36,13 @@ class PartDecomposer {
   BrakeShare share(SlipLaw law, const SlipPlan& plan, const PortDevice& device, std::size_t i) const;
 
   SlipPart part_;
-  std::vector<Real>
-      gated_brakes_;  // b∞ of what is computed, and the viscosity that the dampers left out have at low frequency
+  // b∞ of the part that is computed, plus the damping at low frequency of the dampers left out.
+  std::vector<Real> gated_brakes_;
   bool is_tunable_, behind_contact_;
 };
 
 // The share of an excess of the brake that the motor may take back through an estimate (theory, section 5):
-// (1 − ε) h/T_max of what is told, ε with what the brake loses at the largest speed.
+// (1 − ε) h/T_max of the command, where ε includes what the brake loses at the largest speed.
 double compensated_share(const PortDevice& device);
 
 }  // namespace dashpot::compiler

@@ -12,11 +12,11 @@ namespace {
 
 using std::numbers::pi;
 
-// Σ h²: the variance that white noise of unit variance in the position leaves in the estimate. The estimator itself
-// answers the impulse: of a filter far below the rate the coefficients of a transfer function are mostly rounding. It
-// is done where a whole window changes the sum no more.
+// Σ h²: the variance of the estimate if the position has white noise of variance 1. The estimator itself gives the
+// impulse response h, since for a slow filter the coefficients of a transfer function are mostly rounding. Stops when a
+// whole window no longer changes the sum.
 double noise_power_gain(any_estimator<double> estimator, double sample_period) {
-  constexpr int most_samples = 1 << 22;  // beyond, a filter forgets more slowly than any loop runs
+  constexpr int most_samples = 1 << 22;  // a slower filter would not settle while a loop runs
   estimator.reset(0);
   const auto period_ns = static_cast<std::uint64_t>(std::llround(sample_period * 1e9));
   device_sample impulse;
@@ -71,7 +71,7 @@ PortDevice PortDevice::replaced_by(const Device& device) const {
   return port;
 }
 
-// A slow filter is asked for millions of answers, and many candidates ask for what comes of them.
+// Computed once: a slow filter needs millions of samples, and many candidates use the result.
 void PortDevice::take(const Device& device) {
   device_ = device;
   const bool is_asked = estimator_is_linear() && device.description.velocity.estimator != estimator_kind::sensor;
@@ -122,7 +122,7 @@ std::string_view PortDevice::estimator_name() const {
   return is_ideal() ? "exact" : name_of(description().velocity.estimator);
 }
 
-// What an estimate made at a sample acts on is the hold that follows, one period after the last that it has seen.
+// An estimate acts in the hold after its sample, one period after the last motion that it has seen.
 std::optional<unsigned> PortDevice::estimate_memory() const {
   const velocity_description& velocity = description().velocity;
   const loop_description& loop = description().loop;
@@ -132,7 +132,7 @@ std::optional<unsigned> PortDevice::estimate_memory() const {
     case estimator_kind::least_squares: return delay + velocity.window;
     case estimator_kind::interval_difference:
       return divides_by_varying_interval() ? std::nullopt : std::optional(delay + 1);
-    default: return std::nullopt;  // a sensor's reading is of an instant, not of the hold before
+    default: return std::nullopt;  // a sensor reads the velocity of an instant, not the mean over the hold before
   }
 }
 

@@ -15,8 +15,8 @@ class PortDevice {
  public:
   static PortDevice ideal() { return PortDevice(); }
 
-  // Behind a static curve the network's port is the end of a lever: of the steepest place, where the device has least
-  // force, least damping and the coarsest steps for it. Refuses: a rotary device without an arm radius under a
+  // Behind a static curve the network acts through a lever. The device is taken as it is at the steepest place, where
+  // it has least force, least damping and the coarsest steps. Refuses: a rotary device without an arm radius under a
   // translational network, and the reverse.
   static std::optional<PortDevice> of(const Device& device, const Network& network, Diagnostics& diagnostics);
 
@@ -24,10 +24,10 @@ class PortDevice {
   PortDevice replaced_by(const Device& device) const;
 
   bool is_ideal() const { return !device_; }
-  const device_description& description() const;             // nothing is late or limited in that of an ideal one
+  const device_description& description() const;             // for an ideal device: nothing late, nothing limited
   double damping_scale() const { return damping_scale_; }    // from the joint to the tool
   double position_scale() const { return position_scale_; }  // likewise
-  double steepest() const { return steepest_; }              // w′ of a static curve, at most; else 1
+  double steepest() const { return steepest_; }              // largest w′ of a static curve; else 1
   // A damping at the tool as a law behind the static curve sees it, where that is steepest [N·s/m].
   double behind_curve(double damping) const { return damping / (steepest_ * steepest_); }
   std::optional<double> max_damping() const;  // at the tool [N·s/m]; empty: any
@@ -44,9 +44,9 @@ class PortDevice {
   std::complex<double> motor_response(double angular_frequency) const;
   double encoder_step() const;  // at the tool [m] or [rad]; 0 for an ideal device
   bool estimator_is_linear() const;
-  bool divides_by_varying_interval() const;    // the estimate, by the time between samples that are not punctual
+  bool divides_by_varying_interval() const;    // whether the estimate divides by a time between samples that varies
   bool estimate_sums_to_displacement() const;  // so that velocity-driven slow modes do not drift
-  // Samples that an estimate reaches back from the hold that it acts in; empty where it never forgets, is not linear
+  // How many samples an estimate reaches back from the hold in which it acts; empty if it never forgets, is not linear
   // or divides by intervals that vary.
   std::optional<unsigned> estimate_memory() const;
   double largest_estimator_gain() const;  // max |G|; infinite where it is not linear

@@ -18,7 +18,7 @@ void keep_only(const std::vector<std::size_t>& elements, Network& network) {
   for (std::size_t i = 0; i < kept.size(); ++i) network.elements[i].has_effect = kept[i];
 }
 
-// What hangs loose or is bridged by rigid parts carries no force.
+// Drops elements that have a loose end or whose two ends are rigidly joined: they carry no force.
 void drop_what_carries_no_force(Network& network) {
   std::vector<bool> passable;
   for (const Element& element : network.elements) passable.push_back(element.has_effect && element.a != element.b);
@@ -45,8 +45,8 @@ Regime regime_of(const Network& left, std::vector<bool> slides, double reference
   return regime;
 }
 
-// Some of a network's elements as a network of their own, so that what is done with them does not cost more the more
-// there are beside them.
+// Some of a network's elements as a network of their own, so that work on them does not depend on the size of the
+// whole.
 class PartOfNetwork {
  public:
   PartOfNetwork(const Network& whole, const std::vector<std::size_t>& elements) : elements_(elements) {
@@ -97,7 +97,7 @@ Network network_in_regime(const Network& network, const std::vector<std::size_t>
                           const std::vector<SlipElements>& slips, const std::vector<bool>& slides) {
   Network left = network;
   keep_only(elements, left);
-  DisjointSets joined(left.nodes.size());  // by the least, so that tool and ground stay what they are
+  DisjointSets joined(left.nodes.size());  // the smallest index represents a set, so that tool and ground keep theirs
   for (std::size_t i = 0; i < slips.size(); ++i)
     for (std::size_t element : slips[i]) {
       left.elements[element].has_effect = false;

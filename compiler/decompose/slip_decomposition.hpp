@@ -21,19 +21,19 @@ enum class SlipLaw {
 inline constexpr SlipLaw laws_to_choose_from[] = {SlipLaw::velocity_free, SlipLaw::steady, SlipLaw::ramped,
                                                   SlipLaw::gated};
 
-// What is asked of all parts alike.
+// Settings that hold for all parts.
 struct SlipPlan {
   SlipLaw law = SlipLaw::velocity_free;
-  double excess = 1;  // of the steady law: the share that it takes of what it could take beyond the largest b∞ [1]
-  double estimate_gain = 1;  // γ of ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, not below it; infinite where none is known [1]
-  double reserve = 0;        // of the brake, what is kept for passivity [N·s/m]
+  double excess = 1;         // of the steady law: which share of the possible excess over the largest b∞ it takes [1]
+  double estimate_gain = 1;  // upper bound of γ in ‖v̂‖₂ ≤ γ ‖Δu/h‖₂; infinite if not known [1]
+  double reserve = 0;        // part of the brake that is kept for passivity [N·s/m]
 };
 
 // What a component gives to the brake in one regime [N·s/m].
 struct BrakeShare {
   double damping = 0;       // b
-  Real feedthrough = 0;     // x of f′ = f − x Δu/h, not rounded: what is left of a lone damper is nothing
-  double compensation = 0;  // β, of the ramped law at most
+  Real feedthrough = 0;     // x of f′ = f − x Δu/h, not rounded, so that nothing is left of a lone damper
+  double compensation = 0;  // β; for the ramped law its largest value
 };
 
 // Whether a part can have a law.
@@ -42,13 +42,13 @@ struct SlipLawOffer {
   std::string refusal;  // why it cannot be had; empty where it can
 };
 
-// What a law does in a run of the whole network: of all parts that can have it, velocity-free elsewhere.
+// How a law does in runs of the whole network: used in all parts that can have it, velocity-free elsewhere.
 struct SlipLawMerit {
   SlipLaw law;
   double peak_error = 0;  // largest |f_law − f_network| of a motion over the largest |f_network| in it, the worst [1]
   double rms_error = 0;   // the same of root mean squares [1]
   double mean_damping = 0;  // Σ b u̇²/Σ u̇² over all motions, without what is added for passivity [N·s/m]
-  std::optional<double> minimum_damping;  // what would have to be added for passivity; empty: not proved [N·s/m]
+  std::optional<double> minimum_damping;  // damping to be added for passivity; empty: not proved [N·s/m]
   bool certified = false;                 // on the device, with what has been added
   std::optional<double> motor_noise;  // rms, from quantisation through the estimate behind slips [N]; empty: not linear
 
@@ -70,15 +70,15 @@ struct ExtremeRuns {
 ExtremeRuns extreme_runs(const std::vector<SlipRunError>& runs);
 
 struct ComponentSplit {
-  NormalTree rendered;  // of a tree what the law computes; under the gated law without the dampers beside the slips
-  std::vector<std::size_t> rendered_elements;  // the same of a part that is no tree
+  NormalTree rendered;  // for a tree: what the law computes; in the gated law without the dampers beside the slips
+  std::vector<std::size_t> rendered_elements;  // the same for a part that is no tree
   RegimeList regimes;
-  std::vector<BrakeShare> shares;  // one a listed regime; where none is listed, one for all of them
+  std::vector<BrakeShare> shares;  // one for each listed regime; if none is listed, one for all
   std::vector<SlipLawOffer> offers;
   SlipLaw law = SlipLaw::by_motor;
   std::string reason;
 
-  // Over its regimes; 0 where it gives the brake nothing.
+  // The largest over its regimes; 0 if it leaves nothing to the brake.
   double largest_damping() const { return largest(&BrakeShare::damping); }
   double largest_compensation() const { return largest(&BrakeShare::compensation); }
 
@@ -99,12 +99,12 @@ struct SlipDecomposition {
   double least_error = 0;                // of the laws that it could choose from [1]
   double error = 0;                      // of the choice [1]
   std::vector<SlipRunError> runs;        // of the choice; none where it has not been run
-  double hysteresis = 0;                 // displacement that does not end a slide for the command [m]
+  double hysteresis = 0;                 // how far the tool must move before the command takes a slide as ended [m]
   unsigned memory = 0;                   // N + n: samples that an estimate reaches back from the hold that it acts in
   double ramp = 1;           // ρ: the largest step of a ramp in one sample, as a share of its whole length [1]
   double coil_share = 1;     // κ: the least share of the difference in √b that the coil covers in a sample [1]
   double assured_share = 0;  // share of a damping that no slip changes, up to which an estimate may replace it [1]
-  double make_up = 0;        // what the motor may add or take of a brake on its way, β at most [N·s/m]
+  double make_up = 0;        // largest damping that the motor may add or take while the coil lags [N·s/m]
 
   // Components, then networks.
   std::vector<const ComponentSplit*> all() const {

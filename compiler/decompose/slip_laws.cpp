@@ -13,8 +13,8 @@ PartDecomposer decomposer_of(SlipPart part, const Network& network) {
   return {std::move(part), has_tunables(network), network.contact.has_value()};
 }
 
-// What the brake cannot give to all regimes at once stays in the motor: any x ≤ b∞ may be taken out of f, and what the
-// motor takes back shrinks with the excess that it is a share of. Returns what is left of the brake.
+// If the brake is too weak for all regimes, the rest stays with the motor: any x ≤ b∞ may be taken out of f, and β
+// shrinks with the excess that it is a share of. Returns what is left of the brake.
 double cap(std::vector<ComponentSplit>& splits, double reach) {
   for (ComponentSplit& split : splits) {
     double floor = 0;
@@ -30,14 +30,14 @@ double cap(std::vector<ComponentSplit>& splits, double reach) {
   return reach;
 }
 
-// √b approaches its demand as 1 − e^{−t/lag}, no faster than the slew; the slower of both is assumed all the way.
+// √b approaches its demand as 1 − e^{−t/lag}, no faster than the slew; the slower of the two is assumed throughout.
 double coil_share(const PortDevice& device, double root_span) {
   const double lag = std::max(device.coil_lag(), device.coil_slew() > 0 ? root_span / device.coil_slew() : 0);
   return lag > 0 ? -std::expm1(-device.sample_period() / lag) : 1;
 }
 
-// Of the damping that no slip changes, what is certain and does not cover a compensation yet. With a constant bound any
-// estimator will do that does not make the velocity larger, ‖v̂‖₂ ≤ ‖u̇‖₂.
+// The share of the damping that no slip changes which is certain and not yet used to cover a compensation. It may be
+// used with any estimator that does not enlarge the velocity, ‖v̂‖₂ ≤ ‖u̇‖₂.
 double assured_share(const PortDevice& device) {
   return device.largest_estimator_gain() <= 1 ? 1 - device.tolerance() : 0;
 }
@@ -46,8 +46,8 @@ double make_up(const Candidate& linear_part, const PortDevice& device) {
   return std::max(0.0, assured_share(device) * linear_part.damping - linear_part.velocity_gain);
 }
 
-// A way of ρ a sample leaves 1 − (1 − (N + n) ρ)² of the excess uncompensated, and a coil that makes up κ of what is
-// missing in a sample is up to ρ/κ of the way behind.
+// With steps of ρ a sample, 1 − (1 − (N + n) ρ)² of the excess stays uncompensated; and a coil that makes up the share
+// κ of what is missing in a sample is up to ρ/κ behind.
 double ramp_of(unsigned memory, double share_of_coil) {
   const double of_estimate = memory > 0 ? ramp_error / 2 / memory : 1;
   return std::min(of_estimate, share_of_coil < 1 ? ramp_error_of_coil / 2 * share_of_coil : 1);
@@ -114,7 +114,7 @@ SlipDecomposition SlipDecomposer::decomposed(const Candidate& linear_part, const
   slips.coil_share = coil_share(device, std::sqrt(span));
   slips.assured_share = assured_share(device);
   slips.make_up = make_up(linear_part, device);
-  // Within the hold in which a coil gets a command it has not reached it yet.
+  // In the hold in which a coil gets a command it has not reached it yet, hence one more.
   slips.memory = device.estimate_memory().value_or(0) + (slips.coil_share < 1 ? 1 : 0);
   slips.ramp = ramp_of(slips.memory, slips.coil_share);
   return slips;
@@ -135,7 +135,7 @@ bool has_what_was_asked_for(const Network& network, const SlipDecomposition& sli
   return false;
 }
 
-// Of the names that stand for a law behind slips those remain that some part can have: the others would be refused.
+// Drops the names of laws behind slips that no part can have: asking for them would be refused.
 void list_what_can_be_asked_for(Decomposition& result) {
   const auto has = [&](const std::string& name) {
     for (const ComponentSplit* split : result.slips.all())

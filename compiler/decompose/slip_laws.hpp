@@ -1,8 +1,9 @@
 // How the force of what is behind slips is shared between brake and motor, regime by regime (theory, section 5).
 //
-// In every regime V_k − V_{k−1} ≤ f′Δu, f′ = f − x Δu/h for any x up to the regime's feedthrough damping b∞. So a motor
-// that makes f′ is passive with any brake, whatever the slips, the coil and the tolerance do; only what an estimate of
-// the velocity takes away again, the compensation, has to stay below a brake that is certain.
+// In every regime V_k − V_{k−1} ≤ f′Δu, where f′ = f − x Δu/h for any x up to the regime's feedthrough damping b∞. So a
+// motor that makes f′ is passive with any brake, whatever the slips, the coil and the tolerance do. Only the
+// compensation, which the motor takes back by a velocity estimate, has to stay below the damping that the brake surely
+// makes.
 #pragma once
 
 #include <optional>
@@ -17,8 +18,8 @@
 
 namespace dashpot::compiler {
 
-// Of the final excess of a ramp, the share that may stay uncompensated because the estimate reaches back; and the
-// further share that may while the coil lags [1].
+// The share of a ramp's final excess that may stay uncompensated because the estimate reaches back, and again because
+// the coil lags [1].
 inline constexpr double ramp_error = 0.01;
 inline constexpr double ramp_error_of_coil = 0.04;
 
@@ -31,8 +32,7 @@ std::string_view name_of(SlipLaw law);
 // the motor makes everything.
 std::optional<SlipLaw> slip_law_asked_for(const Choices& choices);
 
-// All parts of a network that are behind slips; none where it has none. What every plan begins with, the regimes, is
-// worked out once.
+// Splits all parts of a network that are behind slips. The regimes, which every plan needs, are computed once.
 class SlipDecomposer {
  public:
   // In: the frequency at which shares of dissipation are compared [rad/s].
@@ -44,7 +44,7 @@ class SlipDecomposer {
   SlipDecomposition decomposed(const Candidate& linear_part, const SlipPlan& plan, const PortDevice& device) const;
 
  private:
-  // One of them, and what of it is rendered: all, or without the dampers beside slips.
+  // One part, and the elements that the law computes: all, or without the dampers beside slips.
   template <class Elements>
   struct Part {
     PartDecomposer decomposer;
@@ -64,7 +64,7 @@ class SlipDecomposer {
   std::vector<InNoTree> networks_;
 };
 
-// The parts that have no other reason for their law get this one; if it is empty, why there is no other law.
+// Gives this reason to parts without another reason for their law; if it is empty, says why there is no other law.
 SlipDecomposition with_reasons(SlipDecomposition slips, const std::string& reason);
 
 // Both: what reaches ground without a slip, then the rest by the law asked for, velocity-free where a run has to
@@ -78,13 +78,13 @@ std::vector<std::string> slip_names(const RegimeList& list, const Regime& regime
 // A component is called after its slips.
 std::string name_of(const ComponentSplit& split, const Network& network);
 
-// Components that are decided alike.
+// Components with the same decision.
 struct SlipLikes {
   const ComponentSplit* first;
   std::vector<std::string> names;
 };
 std::vector<SlipLikes> likes_of(const SlipDecomposition& slips, const Network& network);
-std::string to_text(const SlipLikes& likes);  // whose they are, the law and the reason
+std::string to_text(const SlipLikes& likes);  // their slips, the law and the reason
 
 std::string to_text(const SlipDecomposition& slips, const Network& network);
 

@@ -47,7 +47,7 @@ std::string refusals_text(const ComponentSplit& split) {
   return text;
 }
 
-// Of the whole network, as it is felt.
+// A table of how each law does in runs of the whole network.
 std::string merits_text(const SlipDecomposition& slips, const Network& network) {
   if (slips.merits.empty()) return "";
   const PortUnits units = port_units(network.port_motion);

@@ -38,7 +38,7 @@ double maximum(const std::vector<double>& grid, Function f) {
   return value;
 }
 
-// Every relaxation lies three decades inside: beyond, D has reached its limits to 1e-6.
+// A range with every relaxation three decades inside: outside of it D has reached its limits to 1e-6.
 std::vector<double> whole_axis(const LinearForm& form) {
   if (form.modes.empty()) return {1.0};
   return logarithmic_grid(to_double(form.modes.front().relaxation_rate) * 1e-3,
@@ -60,7 +60,7 @@ double position_share(const Mode& mode, StateInput input) {
   return 1;
 }
 
-// What a scan evaluates hundreds of times, rounded once.
+// The motor's modes, rounded once because a scan evaluates them hundreds of times.
 class Motor {
  public:
   Motor(const LinearForm& form, double damping, StateInput input)

@@ -1,4 +1,4 @@
-// How a split b·u̇ + m departs from the network over frequency, when the motor's velocity is an estimate.
+// How a split b·u̇ + m differs from the network over frequency, when the motor's velocity is an estimate.
 #pragma once
 
 #include <complex>
@@ -24,11 +24,12 @@ MotorImpedance motor_impedance(const LinearForm& form, double damping, StateInpu
 // it, so that a motor without estimate, delay and lag has none; nor is what is added for passivity.
 double largest_error(const LinearForm& form, double damping, StateInput input, const PortDevice& device);
 
-// Of a function of ω, over the device's band or the one that devices have by default: a scan refined at its maximum.
+// The largest value of a function of ω over the device's band or, without a device, the default band: a scan refined at
+// its maximum.
 double largest_in_band(const PortDevice& device, const std::function<double(double)>& function);
 
-// max b ω/|D| over the device's band: how many times the network's force the brake makes, for the motor to take off
-// [1].
+// max b ω/|D| over the device's band: how many times the network's force the brake makes, which the motor then takes
+// back [1].
 double largest_brake_share(const LinearForm& form, double damping, const PortDevice& device);
 
 // The least extra damping [N·s/m] that keeps the split passive for any estimator with |G| ≤ 1 and any delay, the brake

@@ -37,7 +37,7 @@ void drop_unobservable(LinearForm& form) {
   form.modes = std::move(kept);
 }
 
-// Keeps Σk and Σk/λ, and with them D at both ends of the frequency axis.
+// Keeps Σk and Σk/λ, and so D at very high and very low frequency.
 Mode merged(const Mode& first, const Mode& second) {
   Mode both = first;
   both.stiffness = first.stiffness + second.stiffness;

@@ -38,7 +38,7 @@ struct LinearForm {
 // Σk and Σk/λ; unobservable modes absent. The elements must be tied to `from` or `to`.
 LinearForm linear_form(const Network& network, std::span<const std::size_t> elements, NodeIndex from, NodeIndex to);
 
-// Of all elements that have an effect, at the tool with ground held. Every one must be a spring or a damper.
+// The form of all elements that have an effect, seen at the tool with ground held. All must be springs or dampers.
 LinearForm linear_form(const Network& network);
 
 // D(jω) [N/m], exact to a few units in the last place of Real.
@@ -61,7 +61,7 @@ LinearForm in_parallel(LinearForm first, const LinearForm& second);
 // elements of the generalised Kelvin form (Foster's first form): B_i = 1/k_i, K_i = λ_i/k_i. Its own inverse.
 LinearForm reciprocal(const LinearForm& form);
 
-// Adds indices of elements to others: in order, each once.
+// Merges two lists of element indices: ascending, each once.
 void unite(std::vector<std::size_t>& elements, const std::vector<std::size_t>& more);
 
 // Foster's first form: 1/D(s) = 1/k_g + 1/(b_g s) + Σ 1/(K_i + B_i s), in series.

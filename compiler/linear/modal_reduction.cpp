@@ -53,7 +53,7 @@ NodalEquations nodal_equations(const Part& part, const Network& network) {
   return equations;
 }
 
-// All nodes, by what elements of one kind tie together.
+// Sets of nodes that elements of one kind tie together.
 template <class ValueOf>
 DisjointSets tied_by(const Part& part, const Network& network, ValueOf value_of) {
   DisjointSets sets(network.nodes.size());
@@ -141,7 +141,7 @@ void add_part(LinearForm& form, const Part& part, const Network& network) {
   own.static_stiffness = equations.tool_stiffness;
   own.feedthrough_damping = equations.tool_damping;
   if (!part.internal.empty()) add_modes(own, part, network, equations);
-  // What is zero by structure must not survive as a rounding error.
+  // Entries that are zero by the network's structure are set to exactly zero, not left as rounding errors.
   if (leads_through(part, network, stiffness_of)) {
     form.static_stiffness += own.static_stiffness;
     form.static_elements.insert(form.static_elements.end(), part.elements.begin(), part.elements.end());

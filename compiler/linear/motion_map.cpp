@@ -14,7 +14,7 @@ using boost::multiprecision::expm1;
 using boost::multiprecision::pow;
 using boost::multiprecision::sqrt;
 
-// (e^x − 1)/… without cancellation is expm1; e^x − 1 − x of a small x is its series.
+// e^x − 1 − x; for a small x by its series, which does not cancel.
 Real exponential_remainder(const Real& x) {
   if (abs(x) > Real("1e-6")) return expm1(x) - x;
   Real term = x * x / 2, sum = 0;
@@ -28,7 +28,7 @@ Real factor_of(const StaticCurve& curve) {
   return curve.kind == StaticCurve::Kind::power ? Real(force / pow(at, shape)) : Real(force / expm1(shape * at));
 }
 
-// The last point that is not beyond, with a point after it.
+// The last point of the table that is not beyond the displacement and has a point after it.
 std::size_t row_of(const StaticCurve& curve, const Real& displacement) {
   const auto after =
       std::upper_bound(curve.points.begin(), curve.points.end(), displacement,
@@ -42,7 +42,7 @@ Real slope_of(const StaticCurve& curve, std::size_t row) {
          (Real(curve.points[row + 1].displacement) - Real(curve.points[row].displacement));
 }
 
-// Of a curve that begins straight, df/du at 0; 0 of a power above 1.
+// df/du at 0 for a curve that begins straight; 0 for a power above 1.
 Real initial_stiffness(const StaticCurve& curve) {
   switch (curve.kind) {
     case StaticCurve::Kind::power: return curve.shape == 1 ? factor_of(curve) : Real(0);
@@ -96,7 +96,8 @@ MotionMap with_cells(const StaticCurve& curve, const Real& stiffness, double rea
     map.static_error = std::numeric_limits<double>::infinity();
     return map;
   }
-  const std::size_t places = std::max<std::size_t>(16, 2048 / cells);  // looked at in each cell, and where tables bend
+  const std::size_t places =
+      std::max<std::size_t>(16, 2048 / cells);  // points examined in each cell, besides those where tables bend
   const double largest = to_double(force_at(curve, reach));
   const auto look_at = [&](double u) {
     const double force = map.stiffness * map.value_at(u) * map.tangent_at(u);
@@ -118,7 +119,7 @@ void measure_slope(const StaticCurve& curve, const Real& stiffness, MotionMap& m
     map.slope_error = std::max(map.slope_error, error);
     if (error > unsure) map.unsure_until = std::max(map.unsure_until, u);
   };
-  // A curve that begins flat has its bend in the first cells.
+  // A curve that begins flat bends mostly in the first cells.
   for (std::size_t i = 0; i < map.cubics(); ++i) look_at(map.reach * (double(i) + 0.5) / double(map.cubics()));
   for (std::size_t i = 1; i <= 64; ++i) look_at(2 * width * double(i) / 64);
   for (double u = width / 64; u > width * 1e-4; u /= 2) look_at(u);

@@ -1,9 +1,10 @@
-// The map w of the tool's displacement behind which a network lies, so that at rest it answers with its static curve
-// (theory, section 11):
+// The map w of the tool's displacement u that makes a network's force at rest follow a given static curve f(u) (theory,
+// section 11):
 //
 //     w = sgn(u) √(2 E(|u|)/k),   E = ∫ f du,   w′ = f/(k w)
 //
-// in the form that is emitted: a piecewise cubic over uniform knots, and its own derivative.
+// where k is a stiffness of the network. It is emitted as a piecewise cubic over uniform knots, with its own
+// derivative.
 #pragma once
 
 #include <optional>
@@ -16,7 +17,7 @@
 
 namespace dashpot::compiler {
 
-// At a displacement that is not negative [N], and between two of them the work [J].
+// The curve's force at a displacement of 0 or more [N], and its work between two displacements [J].
 Real force_at(const StaticCurve& curve, const Real& displacement);
 Real work_between(const StaticCurve& curve, const Real& from, const Real& to);
 

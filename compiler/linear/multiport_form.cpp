@@ -20,7 +20,7 @@ struct Values {
 
 Values values_of(const Element& element) { return {stiffness_of(element.law), damping_of(element.law)}; }
 
-// Elements that share inner nodes, seen at terminals and ground, the outer ones.
+// Elements that share inner nodes, seen from the outer nodes: terminals and ground.
 class Block {
  public:
   Block(const Network& network, std::vector<std::size_t> elements, const std::vector<NodeIndex>& terminals)
@@ -131,8 +131,8 @@ class Block {
     Real m;
   };
 
-  // Modes of equal rate are not unique: their sum is split anew terminal by terminal, so that equal parts give equal
-  // laws.
+  // Modes of equal rate are not unique, so their sum is split again in a fixed way, terminal by terminal: equal parts
+  // then give equal laws.
   std::vector<Relaxation> taken_apart(std::vector<Relaxation> all) const {
     std::vector<Relaxation> result;
     for (std::size_t first = 0, last = 0; first < all.size(); first = last) {
@@ -176,7 +176,7 @@ class Block {
     });
   }
 
-  // What is zero by structure must not survive as a rounding error.
+  // Entries that are zero by the network's structure are set to exactly zero, not left as rounding errors.
   template <class Carries>
   void add_ties(std::vector<Tie>& ties, const RealMatrix& matrix, Carries carries) const {
     const DisjointSets groups = joined_by(carries);
@@ -231,7 +231,7 @@ MultiportForm multiport_form(const Network& network, const std::vector<std::size
     if (!is_outer(e.a) && !is_outer(e.b)) inner.unite(e.a, e.b);
   }
   std::map<std::size_t, std::vector<std::size_t>>
-      blocks;  // by the group of inner nodes, or the element where there is none
+      blocks;  // by the group of inner nodes, or by the element if it has none
   for (std::size_t element : elements) {
     const Element& e = network.elements[element];
     const bool is_direct = is_outer(e.a) && is_outer(e.b);

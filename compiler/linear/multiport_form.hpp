@@ -9,7 +9,7 @@
 
 namespace dashpot::compiler {
 
-// Between two terminals, by index; the ground is behind the last.
+// A spring or damper between two terminals, by index; the ground comes after the last terminal.
 struct Tie {
   std::size_t a, b;
   Real value;  // k [N/m] or b [N·s/m]
@@ -24,16 +24,16 @@ struct MultiportMode {
 
 struct MultiportForm {
   std::vector<NodeIndex> terminals;   // without the ground
-  std::vector<Tie> springs, dampers;  // one a pair at most
+  std::vector<Tie> springs, dampers;  // at most one for each pair
   std::vector<MultiportMode> modes;
 };
 
-// In: springs and dampers, the nodes at which they are looked at. Every other node is tied to terminals or the ground
-// by them. Ensures: terminals that nothing joins have exactly no tie and no mode in common.
+// In: springs and dampers, and the terminals. The elements must tie every other node to terminals or the ground.
+// Ensures: terminals that nothing joins have exactly no tie and no mode in common.
 MultiportForm multiport_form(const Network& network, const std::vector<std::size_t>& elements,
                              const std::vector<NodeIndex>& terminals);
 
-// The same of a part with slips, without them, looked at from the nodes at which they end, then the tool.
+// The same for a part with slips, without the slips; terminals are the nodes at which slips end, then the tool.
 MultiportForm multiport_form_at_slips(const Network& network, const std::vector<std::size_t>& elements);
 
 }  // namespace dashpot::compiler

@@ -23,8 +23,8 @@ struct NormalTree {
 };
 
 struct NormalForm {
-  LinearForm linear;                   // what reaches from tool to ground without a slip
-  std::vector<NormalTree> components;  // series with at least one slip each, in parallel with it
+  LinearForm linear;                   // the part that joins tool and ground without a slip
+  std::vector<NormalTree> components;  // in parallel with it: series, each with at least one slip
   // The same of parts that are no tree: indices into Network::elements. Behind a contact one of all slips, if any part
   // is no tree; there are no components then.
   std::vector<std::vector<std::size_t>> networks;
@@ -42,17 +42,17 @@ Network linear_part(const Network& network, const NormalForm& form);
 // The whole network as one tree, for a contact: all that is behind the surface answers as one part.
 NormalTree whole_tree(const NormalForm& form, const Network& network);
 
-// Yield forces by the nodes that slips join, among these elements; side by side they add.
+// Yield forces of the slips among these elements, by the nodes that they join; slips side by side add up.
 std::map<std::pair<NodeIndex, NodeIndex>, Real> slips_between(const Network& network,
                                                               const std::vector<std::size_t>& elements);
 
 // These slips, each with those side by side with it, in the order of slips_between(). Indices into Network::elements.
 std::vector<std::vector<std::size_t>> slips_together(const Network& network, const std::vector<std::size_t>& elements);
 
-// Slips in it.
+// The number of slips in the tree.
 std::size_t slip_count(const NormalTree& tree);
 
-// The slips, breadth first, and all elements in order.
+// The slips, breadth first; and all elements, ascending.
 std::vector<const NormalTree*> slips_of(const NormalTree& tree);
 std::vector<std::size_t> elements_of(const NormalTree& tree);
 

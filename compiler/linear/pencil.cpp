@@ -65,7 +65,7 @@ RealMatrix cholesky(const RealMatrix& m, Index width) {
   return l;
 }
 
-// A symmetric matrix with a band, of which one half is stored, and vectors that turn as it does.
+// A symmetric band matrix, of which one half is stored, and vectors that are rotated with it.
 class Band {
  public:
   Band(const RealMatrix& a, RealMatrix vectors, Index width)
@@ -228,7 +228,7 @@ class Eigenvalues {
   }
 
   RealMatrix& vectors_;
-  RealVector diagonal_, beside_;  // beside_(i) stands between i and i + 1
+  RealVector diagonal_, beside_;  // beside_(i) is the entry between i and i + 1
 };
 
 }  // namespace

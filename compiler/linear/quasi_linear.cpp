@@ -8,7 +8,7 @@
 namespace dashpot::compiler {
 
 double distance_from_quasi_linear(const Network& network, const LinearForm& form, double speed) {
-  constexpr int steps = 2000;  // of the ramp: the difference is told in per cent
+  constexpr int steps = 2000;  // of the ramp; the difference is reported in per cent
   const MotionMap& map = *network.map;
   const double period = map.reach / speed / steps, viscosity = to_double(form.feedthrough_damping);
   const double static_stiffness = to_double(form.static_stiffness);

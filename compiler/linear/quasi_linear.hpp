@@ -1,4 +1,4 @@
-// Quasi-linear viscoelasticity, the other law of a tissue with a static curve, beside the map that is compiled here.
+// Quasi-linear viscoelasticity, the usual law of a tissue with a static curve, for comparison with the map used here.
 #pragma once
 
 #include "linear/linear_form.hpp"

@@ -15,7 +15,7 @@ inline constexpr std::size_t most_inner_nodes = 400;
 // Of the parts that are eliminated together, the one with most inner nodes; without elements where none has any.
 Part largest_part(const Network& network);
 
-// Refuses, with the elements, values further apart, and parts of more nodes.
+// Refuses values further apart and parts with more nodes, naming the elements.
 bool is_within_reach(const Network& network, Diagnostics& diagnostics, std::size_t most_nodes = most_inner_nodes);
 
 }  // namespace dashpot::compiler

@@ -8,7 +8,7 @@ namespace {
 // 3⁸ = 6,561 patterns; no bound is known that grows less. A step tries a few of them.
 constexpr std::size_t most_slips_outside_tree = 8;
 
-// The slips of the part that is no tree and has most.
+// The largest number of slips in a part that is no tree.
 std::size_t most_slips_together(const NormalForm& form, const Network& network) {
   std::size_t most = 0;
   for (const std::vector<std::size_t>& elements : form.networks)

@@ -1,4 +1,4 @@
-// What a linear network must be, and whether it does anything where its author says it is valid.
+// Checks of a network's form: whether it can be solved in bounded time, and whether it relaxes in its valid band.
 #pragma once
 
 #include "linear/normal_form.hpp"

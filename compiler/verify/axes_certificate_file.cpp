@@ -23,7 +23,7 @@ Json json_of_ports(const AxesCompilation& c) {
   return ports;
 }
 
-// What of the device the bounds are of.
+// The facts of the device that the bounds depend on.
 Json json_of_loop(const AxesDevice& device) {
   Json joints = Json::array(), brakes = Json::array();
   for (const device_description& joint : device.joints)
@@ -47,7 +47,7 @@ Json json_of_loop(const AxesDevice& device) {
           {"brakes", brakes}};
 }
 
-// Where no damping is enough, null.
+// null if no damping is enough.
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json json_of(const AxesCertificate& c, const AxesDevice& device) {

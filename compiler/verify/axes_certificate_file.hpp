@@ -1,5 +1,5 @@
-// The certificate of a law of two axes as a JSON file: what certificate_file.hpp has of one, for every port, and what
-// is proved over the workspace.
+// The certificate of a law of two axes as a JSON file: for every port what certificate_file.hpp has for one axis, and
+// what is proved over the workspace.
 #pragma once
 
 #include <map>
@@ -18,9 +18,9 @@ struct AxesCertificateFile {
   std::vector<double> port_dampings;  // b of each port [N·s/m]
   std::vector<double> added_damping;  // to each brake's command [N·m·s/rad] or [N·s/m]
   bool is_proved = false;
-  double needed_damping = 0;   // over W, as all of these; infinite where no damping is enough [N·s/m]
-  double for_estimates = 0;    // of that, what follows estimates
-  double for_lag = 0;          // of that, what is due to the amplifiers' lag
+  double needed_damping = 0;   // as a multiple of W, like all of these; infinite if no damping is enough [N·s/m]
+  double for_estimates = 0;    // part of it for velocity estimates
+  double for_lag = 0;          // part of it for the amplifiers' lag
   double missing_damping = 0;  // beyond what is there already
   bool certified = false;
   std::map<std::string, std::vector<double>> constants;  // as in the header

@@ -96,11 +96,11 @@ Json json_of_choices(const Compilation& c, const Choices& choices) {
                {"damping", c.decomposition.choice().damping},
                {"brake_command", c.law.damping},
                {"added_damping", c.certificate.added_damping}};
-  if (choices.tolerance != Choices().tolerance) told["tolerance"] = choices.tolerance;  // where it was asked for
+  if (choices.tolerance != Choices().tolerance) told["tolerance"] = choices.tolerance;  // if the user asked for it
   return told;
 }
 
-// Each on its share of the device; what is proved of all together is the sum.
+// Each port on its share of the device; what is proved for all ports together is the sum.
 Json json_of_ports(const Compilation& c) {
   Json ports = Json::array();
   for (const Compilation& port : c.ports)

@@ -15,8 +15,8 @@ struct CertificateFile {
   std::string network_text;
   std::optional<std::string> device_text;
   Choices choices;                     // with the rate and the state input that were taken
-  bool asked_for_state_input = false;  // whether the user did, or it was chosen
-  double damping = 0;                  // b, of the decomposition [N·s/m]
+  bool asked_for_state_input = false;  // true: by the user; false: it was chosen
+  double damping = 0;                  // b of the decomposition [N·s/m]
   double brake_command = 0;            // b and what is added [N·s/m]
   double added_damping = 0;            // [N·s/m]
   std::string proof;                   // "none", "hold" or "sampled"

@@ -1,4 +1,4 @@
-// What a certificate tells people, against the one that its own network and device give.
+// Compares a certificate with the one that its own network and device give.
 #pragma once
 
 #include "source/diagnostic.hpp"

@@ -23,7 +23,7 @@ std::pair<std::size_t, std::size_t> version_in(std::string_view header) {
   return is_one ? std::pair(start, end) : std::pair<std::size_t, std::size_t>(0, 0);
 }
 
-// As another dashpot would have written it that wrote `header`: its version is all of it that may be another one.
+// The text with the version that `header` names: only the version may differ between two versions of dashpot.
 std::string with_version_of(std::string_view header, std::string text) {
   const auto [start, end] = version_in(header);
   const auto [from, to] = version_in(text);
@@ -39,7 +39,7 @@ std::string with_line_ends_of(std::string_view header, std::string text) {
   return result;
 }
 
-// What stands there, with some words of its line in front of it.
+// The text at that place, with some words of its line before it.
 std::string excerpt_at(std::string_view text, std::size_t at) {
   if (at >= text.size()) return "the end of the file";
   constexpr std::size_t most_in_front = 30;

@@ -1,4 +1,5 @@
-// The banner of an emitted header and the code around its constants, against what is written of the same network.
+// Compares the banner of an emitted header, and the code around its constants, with what is written for the same
+// network.
 #pragma once
 
 #include <string>

@@ -25,7 +25,7 @@ std::optional<double> number(std::string_view text, ScalarType scalar) {
   return value;
 }
 
-// What is no code, replaced by as many blanks: comments and what stands in quotes.
+// The header with comments and quoted text replaced by as many blanks.
 std::string without_remarks(std::string_view header) {
   std::string code(header);
   for (std::size_t at = 0; at < code.size(); ++at) {
@@ -78,7 +78,7 @@ bool read_literals(std::string_view code, ScalarType scalar, std::vector<double>
   return true;
 }
 
-// The name in front of "= …" or "[2] = …", without what a state ends with.
+// The name in front of "= …" or "[2] = …", without the underscore at the end of a state.
 std::string name_before(std::string_view code, std::size_t end) {
   std::size_t stop = code.find_last_not_of(" \n", end - 1) + 1;
   if (stop > 0 && code[stop - 1] == ']') stop = std::min(code.rfind('[', stop), stop);

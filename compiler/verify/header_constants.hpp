@@ -21,8 +21,8 @@ struct HeaderConstants {
   std::vector<HeaderConstant> all;  // in the order of the text
 };
 
-// The name under which the numbers come that stand in no constant's declaration: what begins a state or a parameter, or
-// is an argument. Zeros are left out. No constant of a law is called so.
+// The name for numbers outside of constants' declarations: initial values of states and parameters, and arguments.
+// Zeros are left out. No constant of a law has this name.
 inline constexpr const char* literals_in_code = "literals";
 
 // Every number of the scalar's type that is code. Empty where a constant's value is no finite number, or the scalar is

@@ -1,4 +1,5 @@
-// Which constant of a law a number in its header is, and whether it is the nearest to what it must be.
+// Finds the constant of a law that a number in its header stands for, and checks that it is the nearest to the exact
+// value.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,7 @@ std::optional<LawConstant> constant_called(const std::string& name, std::size_t 
 // Whether it is one of the tables of a static curve's map, which are recomputed with the map.
 bool is_table_of_map(const std::string& name, const UpdateLaw& law);
 
-// Whether it is chosen, or of device or map, and no function of the network alone.
+// Whether such a constant is a choice, or comes from the device or a map, and is no function of the network alone.
 bool is_chosen(ConstantRole role);
 
 // One of the numbers of a constant, for messages: its name in the header and, of a list, the place from 1.

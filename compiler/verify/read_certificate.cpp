@@ -52,7 +52,7 @@ class Section {
     return number;
   }
 
-  // The value that is called so.
+  // The value with that name.
   template <class Value, std::size_t count>
   Value named(const char* key, const Value (&values)[count]) const {
     const JsonValue* told = of_kind(key, Kind::string, "a string");
@@ -70,7 +70,7 @@ class Section {
   bool has(const char* key) const { return keys_.find(key) != nullptr; }
   bool is_of(const char* key, Kind kind) const { return has(key) && keys_.find(key)->value.kind == kind; }
 
-  // An empty one in the place of what is none.
+  // The object, or an empty one if it is none.
   JsonValue object(const char* key) const {
     if (const JsonValue* value = of_kind(key, Kind::object, "an object")) return *value;
     return {Kind::object, has(key) ? keys_.find(key)->value.span : keys_.opening(), "", {}, {}};
@@ -81,7 +81,7 @@ class Section {
   Diagnostics& faults_;
 };
 
-// What laws of one axis and of two have been asked for alike.
+// The choices that laws of one axis and of two have in common.
 Choices sampling_of(const Section& law) {
   Choices choices;
   choices.rate = law.number("rate", lowest_rate, highest_rate);
@@ -146,7 +146,7 @@ CertificateFile file_of(const JsonValue& root, Diagnostics& faults) {
   return file;
 }
 
-// Null where no damping is enough.
+// null means that no damping is enough.
 double damping_of(const Section& passivity, const char* key) {
   return passivity.is_of(key, Kind::null) ? std::numeric_limits<double>::infinity() : passivity.number(key);
 }

@@ -9,7 +9,7 @@ namespace dashpot::compiler {
 
 LawFacts facts_of(const CertificateFile& certificate);
 
-// For nodal states, the network rewired so that the observed elements are next to the tool; else the network itself.
+// With nodal states, the network rewired so that the observed elements are next to the tool; else the network itself.
 Network realised(const Network& network, const CertificateFile& certificate, const PortDevice& device);
 
 }  // namespace dashpot::compiler

@@ -15,7 +15,7 @@ namespace dashpot::compiler {
 namespace {
 
 constexpr int places_a_side = 10;
-constexpr std::size_t most_combined_ports = 6;  // beyond, all ports are at the same end of their forces
+constexpr std::size_t most_combined_ports = 6;  // with more ports, all are taken at the same end of their forces
 
 // Central differences of order h² of what is smooth over lengths of 1 mm: in 100 digits good to about 45.
 const Reference difference_step{"1e-25"};
@@ -25,7 +25,7 @@ ReferencePair times(double length, const ReferencePair& direction) {
   return {Reference(length) * direction[0], Reference(length) * direction[1]};
 }
 ReferencePair direction_of(const Reference& angle) { return {cos(angle), sin(angle)}; }
-// Of the sum of two angles.
+// Cosine and sine of the sum of two angles.
 ReferencePair turned_by(const ReferencePair& a, const ReferencePair& b) {
   return {a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]};
 }
@@ -142,14 +142,14 @@ Differences differences(const std::function<Reference(const ReferencePair&)>& of
           {(ahead - 2 * here + behind) / (h * h), crossed / (4 * h * h), (above - 2 * here + below) / (h * h)}};
 }
 
-// What a port asks of the motors.
+// The force that a port may ask of the motors.
 struct PortForce {
   const Port* port;
-  std::optional<ReferenceGrid> grid;  // of its map, where that is one
+  std::optional<ReferenceGrid> grid;  // if its map is a grid
   Reference held = 0;                 // S [N/m]
   Reference grounded = 0;             // k0 [N/m]
   Reference relaxing = 0;             // Σ k of the modes [N/m]
-  Reference yields = 0;               // of the slips, ± [N]
+  Reference yields = 0;               // largest force of the slips [N]
   Reference least = 0, most = 0;      // w at the places [m]
 };
 
@@ -222,13 +222,13 @@ class Places {
   }
 
  private:
-  // A little inside, so that what the search for joints rounds leads to no place outside.
+  // A place a little inside the range, so that rounding in the search for joints leads to no place outside.
   static double share(const axes::Interval& range, double along) {
     constexpr double inset = 1e-6;
     return range.low + range.width() * (inset + along * (1 - 2 * inset));
   }
 
-  // Joints come from the compiler, and count where they put the tip into the workspace.
+  // The joints come from the compiler; they count if they put the tip inside the workspace.
   void add(const axes::Pair<double>& tip) {
     const std::optional<axes::Pair<double>> joints = axes::joints_at(c_.device.arm, tip);
     if (!joints) return;

@@ -17,7 +17,7 @@ using ReferencePair = std::array<Reference, 2>;
 // Where the tip of an arm is (axes/kinematics.hpp) [m].
 ReferencePair reference_tip(const axes::Arm& arm, const ReferencePair& joints);
 
-// Of a port's own law.
+// The facts of a port's own law.
 LawFacts facts_of_port(const AxesCompilation& compilation, std::size_t port);
 
 struct NeedAtPlaces {

@@ -33,7 +33,7 @@ class Box {
     const Reference behind_slips = largest_behind_slips(), made_up = make_up(brakes, behind_slips);
     if (brakes.empty() || (made_up > 0 && !loop_.gain)) return std::nullopt;
     const ReferenceSum asked = needed();
-    std::optional<Reference> worst;  // below 0 where more is there than is needed
+    std::optional<Reference> worst;  // below 0 if there is more than is needed
     ReferenceBox box{0, std::max(Reference(0), least(brakes.front())), 0, gain_of_step(brakes, made_up)};
     for (const ReferenceSum& brake : brakes) {
       box.least_brake = std::min(box.least_brake, std::max(Reference(0), least(brake)));
@@ -85,7 +85,7 @@ class Box {
     return cut;
   }
 
-  // Behind slips blocks are made no softer than a share of what they can be.
+  // Behind slips a block's stiffness is not allowed to fall below a share of its largest.
   SumCut cut_of(const ReferenceBlock& block) const {
     SumCut cut = cut_but_for_dampers(block);
     cut.damping = added(cut.damping, block.damping);
@@ -114,7 +114,7 @@ class Box {
     return is_whole ? std::optional(sum) : std::nullopt;
   }
 
-  // Of slips in no tree: every way to take ends to the tool's side that no slip crosses.
+  // For slips in no tree: tries every way to choose the ends on the tool's side such that no slip crosses the cut.
   SumCut least_cut(const ReferenceGraph& graph) const {
     std::optional<std::size_t> best;
     Reference least = 0;

@@ -1,4 +1,4 @@
-// What a law with tunable parameters asks for over its declared box once more (certify/box_motor.hpp), from the
+// Computes again what a law with tunable parameters needs over its declared box (certify/box_motor.hpp), from the
 // network's own parts and in 100 digits.
 #pragma once
 

@@ -15,9 +15,9 @@ double nearest(const Reference& value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? value.convert_to<double>() : static_cast<double>(value.convert_to<float>());
 }
 
-const Reference cancellation_share{"1e-30"};  // of the whole: what is below is left over from rounding
+const Reference cancellation_share{"1e-30"};  // share of the whole; anything smaller is left over from rounding
 
-const Reference halfway{"1e-25"};  // of the distance to a number: another that is hardly nearer is as near
+const Reference halfway{"1e-25"};  // relative; two numbers whose distances differ by less are equally near
 
 // 2⁻²⁰⁰ N and 2⁻⁶⁰ N are taken for zero; a constant is zero where its product with them would be subnormal.
 double threshold(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-200 : 0x1p-60; }

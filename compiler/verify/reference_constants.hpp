@@ -31,8 +31,8 @@ Reference energy_weight(const ReferenceMode& mode, const ModeFactors& factors, S
 // How stiff it is to a step within one sample: k0 + b∞/T + Σ c [N/m].
 Reference companion(const ReferenceForm& form, const LawFacts& facts);
 
-// Each kind of constant, as emitted names end: one value, or one a mode by ascending relaxation rate. Constants that a
-// law of this kind does not have are absent.
+// Each kind of constant, by the ending of its emitted name: one value, or one for each mode by ascending relaxation
+// rate. Constants that a law of this kind does not have are absent.
 std::map<std::string, std::vector<Reference>> reference_constants(const ReferenceForm& form, const LawFacts& facts);
 
 // Whether no number of the scalar's type is nearer; of two between which the exact value is halfway, but for what

@@ -48,7 +48,7 @@ struct PulseLaw {
 ReferenceGain pulse_of(const PulseLaw& law, const std::vector<double>& averages, long double period) {
   std::vector<long double> sums(law.modes.size(), 0);
   long double total = 0, modes_force = 0, last = 0, last_average = 0;
-  long double addends = 0, modes_addends = 0;  // their sizes, of which the doubles of a stated sum round off units
+  long double addends = 0, modes_addends = 0;  // sums of their sizes, which bound the rounding of a sum in doubles
   for (std::size_t j = 0; j < std::max<std::size_t>(averages.size(), 2); ++j) {
     const long double q = j == 0 ? 1 : 0, average = j < averages.size() ? averages[j] : 0;
     const long double held = law.static_stiffness * q, stepped = law.step_stiffness * (q - last);
@@ -110,7 +110,7 @@ std::optional<ReferenceGain> gain_of(PulseLaw law, const SampledLoop& loop) {
   return ReferenceGain{rest.least + Reference(widest), rest.most + Reference(widest)};
 }
 
-// What a part answers within a sample while its slips hold; empty where that is rigid.
+// The stiffness of a part over one sample while its slips hold; empty if it is rigid.
 std::optional<Reference> held_companion(const ReferencePart& part, const LawFacts& facts) {
   if (part.kind == ReferencePart::Kind::block) return companion(part.form, facts);
   if (part.kind == ReferencePart::Kind::slip) return std::nullopt;
@@ -190,7 +190,7 @@ std::optional<ReferenceGain> reference_gain(const ReferenceTree& tree, const Ref
                                             const Network& network, const SlipDecomposition& slips,
                                             const SlipMotor& motor, const LawFacts& facts, const SampledLoop& loop) {
   const bool touches = network.contact.has_value();
-  ReferenceForm behind = linear;  // f′ leaves the dampers out
+  ReferenceForm behind = linear;  // f′ is without the dampers
   behind.feedthrough_damping = 0;
   const Reference of_surface = 2 * companion(behind, facts) - behind.static_stiffness;
   std::optional<ReferenceGain> sum =

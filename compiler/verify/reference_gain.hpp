@@ -1,5 +1,5 @@
-// K of the encoder's step once more (certify/quantisation.hpp), by other ways: the velocity estimate as the runtime's
-// own estimator answers a step, and what is behind slips from what it answers within one sample.
+// Computes K of the encoder's step again (certify/quantisation.hpp) in other ways: the velocity estimate from the
+// runtime's own estimator, the parts behind slips from their stiffness over one sample.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace dashpot::compiler {
 
-// Bounds of K: what an error of the encoder is seen to do, and what it does at most [N/m].
+// Bounds of K: the effect of one particular error of the encoder, and the largest effect of any [N/m].
 struct ReferenceGain {
   Reference least, most;
 };

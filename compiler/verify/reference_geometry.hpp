@@ -1,4 +1,4 @@
-// The constants of a law of two axes that come of the device and the maps, and not of a port's network, in 100 digits.
+// The constants of a law of two axes that come from the device and the maps, not from a port's network, in 100 digits.
 #pragma once
 
 #include <map>

@@ -18,7 +18,7 @@ struct ReferenceCut {
   Reference stiffness, damping;
   Reference brakes = 0;  // of `damping`, what the brake has in every regime, and is taken off
 
-  // What the motor has left; nothing where that is left over from rounding.
+  // The dampers that are left to the motor; 0 if what is left is rounding only.
   Reference of_motor() const;
 };
 ReferenceCut reference_cut(const ReferenceForm& form, const LawFacts& facts);

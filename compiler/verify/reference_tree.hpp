@@ -1,5 +1,5 @@
-// A network with slips as blocks and slips once more, by code that shares nothing with linear/ and decompose/: every
-// block's canonical form in 100 digits, from a network of its own elements.
+// Splits a network with slips into blocks and slips again, by code that shares nothing with linear/ and decompose/.
+// Every block's canonical form is computed in 100 digits from a network of its own elements.
 #pragma once
 
 #include <optional>

@@ -21,8 +21,8 @@ class SlipEquations {
   SlipEquations(const ReferenceTree& tree, ReferenceForm linear, const Network& network, const SlipDecomposition& slips,
                 const LawFacts& facts);
 
-  // One of a constant's values, where its role is no choice. Empty where the network has nothing like what the constant
-  // is said to be of.
+  // One of a constant's values, if its role is no choice. Empty if the network has no such part as the constant is said
+  // to belong to.
   std::optional<Reference> value(const Coefficient& constant, std::size_t place) const;
 
   // The numbers of a table in the order of the emitted text; empty likewise. Of a tree stiffness, compliance and yield
@@ -35,7 +35,7 @@ class SlipEquations {
   std::optional<Values> to_ground(const SlipNetwork& table) const;
   std::optional<Reference> through(const SlipNetwork& table) const;
 
-  // False where the brake was given more of some regime's dampers than there are in it.
+  // False if in some regime the brake was given more damping than that regime has.
   bool are_shares_within_regimes() const;
 
  private:

@@ -7,7 +7,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// In which an offset goes home by 63 %.
+// The time in which an offset shrinks by 63 %.
 const Reference offset_time("0.1");  // [s]
 
 }  // namespace
@@ -121,7 +121,7 @@ std::optional<ReferenceSum> TunableEquations::number(const NumberSubject& of) co
   return std::nullopt;
 }
 
-// What does not change of a number, or the share that an element has of its parameter.
+// The part of a number that does not change, or the factor of a parameter in it.
 std::optional<Reference> TunableEquations::element_value(const OfNumber& of) const {
   const TunableNumber& written = tables_.numbers[of.number];
   const std::optional<ReferenceSum> sum = number(written.of);

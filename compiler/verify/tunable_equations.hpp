@@ -17,10 +17,11 @@ class TunableEquations {
   TunableEquations(const ReferenceTunables& tunables, const TunableTables& tables, const Network& network,
                    const LawFacts& facts);
 
-  // Of a constant whose role is no choice. Empty where the network has nothing like what the constant is said to be of.
+  // The value of a constant, if its role is no choice. Empty if the network has no such part as it is said to belong
+  // to.
   std::optional<Reference> value(const Coefficient& constant) const;
 
-  // Of slips that no parameter changes, the least of their cuts.
+  // The yield forces of slips that no parameter changes.
   std::vector<Reference> fixed_yields() const;
 
  private:

@@ -92,7 +92,7 @@ class AxesVerification {
       diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "header", "recomputed bound", constant.name);
   }
 
-  // What lets too much pass is told as that, and anything else as another number.
+  // Reports numbers that let too much pass as such, and any other difference as another number.
   void look_at_gate() {
     const std::size_t errors_before = diagnostics_.error_count();
     verify_gate(*c_.certificate.gate, c_.device, header_, diagnostics_);
@@ -166,7 +166,7 @@ class AxesVerification {
         diagnostics_.report<DiagnosticCode::constant_wrong>(
             {}, fmt::format("place {} of '{}{}'", place + 1, map_of(port), name), value, due.str(20));
     };
-    // What only the depth needs is not there where a port has no springs.
+    // A port without springs does not need the depth, so tables for it alone are missing.
     const std::set<CoefficientId> read = constants_read(c_.law);
     const auto is_read = [&](const std::string& name) {
       return std::any_of(read.begin(), read.end(),

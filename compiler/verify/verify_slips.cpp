@@ -52,7 +52,7 @@ void SlipVerification::look_at(const HeaderConstant& written, std::size_t number
   compare(written, number, *exact, header_.scalar, diagnostics_);
 }
 
-// A mode's weights are known but for their common sign: the first that is met tells it.
+// A mode's weights are unique except for their common sign, which the first weight decides.
 Reference SlipVerification::signed_weight(double written, const Coefficient& constant, const Reference& exact) {
   const auto& of = std::get<OfPartMode>(constant.of.front());
   const int side = (written < 0) == (exact < 0) ? 1 : -1;
@@ -76,14 +76,14 @@ std::optional<SlipEquations::Values> SlipVerification::table_called(const std::s
   return std::nullopt;
 }
 
-// What joins tool and ground has no name in the header: it is an argument of the step.
+// The stiffness between tool and ground has no name in the header: it is an argument of the step.
 void SlipVerification::look_at_through(const SlipNetwork& table) {
   if (const std::optional<Reference> exact = equations_.through(table))
     compare({table.name, {table.through}, table.name + ", from tool to ground"}, 0, *exact, header_.scalar,
             diagnostics_);
 }
 
-// The cut once more, of which the certificate may ask no less, and, but for its margin, no more.
+// Computes the cut again: the certificate may not ask for less, nor, apart from its margin, for more.
 void SlipVerification::recompute_bounds() {
   const Certificate& again = compiled_.certificate;
   const auto motor =

@@ -48,8 +48,8 @@ std::vector<Reference> TunableVerification::ranges() const {
   return all;
 }
 
-// What is needed may be what is left of the brake's damping, whose rounding, and that of b∞ − b, it then has, beside
-// its own.
+// Allows for rounding: what is needed may be a difference of the brake's damping, whose rounding, and that of b∞ − b,
+// then count besides its own.
 bool TunableVerification::covers(double stated, const ReferenceBox& box, const Reference& share) const {
   const bool is_double = header_.scalar == ScalarType::float64;
   const Reference found = box.needed(share), size = found + share * box.least_brake + box.largest_brake;
@@ -58,7 +58,8 @@ bool TunableVerification::covers(double stated, const ReferenceBox& box, const R
          Reference(stated) <= found + margin * size + Reference("1e-60");
 }
 
-// The certificate asks for no less than the box once more, but for rounding, and, but for its margin, no more.
+// The certificate may not ask for less than the box computed again, apart from rounding, nor, apart from its margin,
+// for more.
 void TunableVerification::recompute_bounds() {
   const SampledLoop& loop = compiled_.certificate.loop;
   const auto gain = estimate_gain(loop);

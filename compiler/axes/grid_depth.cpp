@@ -115,7 +115,7 @@ Depth<Sloped> depth(const Grid& grid, const Pair<Sloped>& x) {
            over_box(over.gradient[1], middle.gradient[1], bends.xy, bends.yy, x)}};
 }
 
-// From cell to cell second derivatives jump.
+// Second derivatives jump at the cells' edges, so the bounds of all cells are joined.
 Symmetric<Sloped> bend(const Grid& grid, const Pair<Sloped>& x) {
   const Box box{x[0].value, x[1].value};
   const std::size_t column = place(grid, 0, box[0].low), row = place(grid, 1, box[1].low);

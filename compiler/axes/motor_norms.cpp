@@ -82,7 +82,7 @@ Size largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const std
   });
 }
 
-// Of [[0, σ], [σ, 0]] it is the same.
+// [[0, σ], [σ, 0]] has the same size.
 Size largest_curl(const Arm& arm, const Box& workspace, const ViscousField& field, const Pair<double>& weight,
                   int parts) {
   return largest_size(arm, workspace, weight, parts, [&](const TipMotion& there) {

@@ -1,6 +1,6 @@
-// How large the motors' part is over a workspace, relative to W = diag(weight): sizes ‖N‖ = max |λ| of N v = λ W v of
-// matrices over the joints, by enclosures with outward rounding. For what a certificate bounds without asking where the
-// joints were before (theory, section 12).
+// How large the motors' part is over a workspace: sizes ‖N‖ = max |λ| with N v = λ W v of matrices N over the joints,
+// where W = diag(weight), by enclosures with outward rounding. A certificate uses them for bounds that do not depend on
+// where the joints were before (theory, section 12).
 #pragma once
 
 #include <vector>
@@ -13,15 +13,15 @@ namespace dashpot::compiler::axes {
 
 // A size over a workspace.
 struct Size {
-  double most;      // nowhere larger
-  double attained;  // as large somewhere
+  double most;      // upper bound everywhere
+  double attained;  // reached at some place
 };
 
-// Of a port that damps.
+// A port with damping.
 struct PortDamping {
   PortMap map;
   double damping = 0;   // b [N·s/m]
-  bool is_off = false;  // at times: behind a contact
+  bool is_off = false;  // it may be off at times, behind a contact
 };
 
 // All look at up to `parts` of the workspace. ‖R‖, R = B* − D of what ports and field want and what the brakes make of
@@ -30,12 +30,12 @@ Size largest_remainder(const Arm& arm, const Box& workspace, const std::vector<P
                        const ViscousField& field, const std::vector<Brake>& brakes, BrakeRule rule,
                        const Pair<double>& weight, int parts = most_boxes);
 
-// The same of two brakes by `diagonal`, without what couples them.
+// The same for two brakes by `diagonal`, without their coupling.
 Size largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
                                  const ViscousField& field, const Pair<Brake>& brakes, const Pair<double>& weight,
                                  int parts = most_boxes);
 
-// ‖[[0, σ], [−σ, 0]]‖ of a field that turns.
+// ‖[[0, σ], [−σ, 0]]‖ of a field's antisymmetric part.
 Size largest_curl(const Arm& arm, const Box& workspace, const ViscousField& field, const Pair<double>& weight,
                   int parts = most_boxes);
 
@@ -43,7 +43,7 @@ Size largest_curl(const Arm& arm, const Box& workspace, const ViscousField& fiel
 Size largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight,
                       int parts = most_boxes);
 
-// |M| ‖H‖ of a port's force and its map's Hessian H: what a motion of the joints turns the torque by.
+// |M| ‖H‖ of a port's force and its map's Hessian H: how much a motion of the joints turns the torque.
 Size largest_turning(const Arm& arm, const Box& workspace, const PortLoad& load, const Pair<double>& weight,
                      int parts = most_boxes);
 

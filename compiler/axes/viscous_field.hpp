@@ -1,5 +1,5 @@
-// Viscous fields, force = A ẋ over the plane [N·s/m]: what of them is refused, how they are split between brakes and
-// motors, and the gate that keeps the rest passive on a sampled loop (theory, section 12).
+// Viscous fields, force = A ẋ over the plane [N·s/m]: which are refused, how they are split between brakes and motors,
+// and the gate that keeps the motors' part passive on a sampled loop (theory, section 12).
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct ViscousField {
 
   bool is_uniform() const { return at_knot.size() == 1; }
   bool is_zero() const;
-  bool is_symmetric() const;  // nowhere turns
+  bool is_symmetric() const;  // A is symmetric everywhere
 };
 
 // Over a cell of the field, one entry of A with s and t the distances from the cell's corner [m]: [0] + [1] s + [2] t +
@@ -58,10 +58,10 @@ Symmetric<S> symmetric_part(const Matrix<S>& a) {
   return {a[0][0], S(0.5) * (a[0][1] + a[1][0]), a[1][1]};
 }
 
-// A field that drives the tool somewhere.
+// A direction of motion in which a field gives power to the tool.
 struct Driving {
   Pair<double> direction;  // of a velocity, of length 1
-  double power;            // what it gives at 1 m/s there [W], positive
+  double power;            // power given at 1 m/s in that direction [W], positive
 };
 
 // Where A + Aᵀ is not positive semi-definite: the direction that it drives most. Slack for the rounding of decimals is

@@ -88,7 +88,7 @@ Pair<Sloped> moved(const Pair<Sloped>& from, const Pair<double>& by) {
   return result;
 }
 
-// How far the tip goes at most.
+// The largest movement of the tip.
 Pair<double> reach_of_tip(const Arm& arm, const Pair<Sloped>& joints, const Pair<double>& reach) {
   const Pair<Sloped> reached = moved(joints, reach);
   const Pose<Interval> moves = pose(arm, Box{reached[0].value, reached[1].value});
@@ -142,7 +142,7 @@ std::vector<Symmetric<Sloped>> latenesses_of(double times, const Symmetric<Slope
   return all;
 }
 
-// What a port needs beside its spring k0, if the force of that is k0 w at all times; else all that it needs.
+// The port without its spring k0, if that spring's force is always k0 w; else the whole port.
 PortLoad beside_field(const PortLoad& load) {
   PortLoad rest = load;
   if (load.unilateral || load.clamp < unlimited) return rest;
@@ -151,7 +151,7 @@ PortLoad beside_field(const PortLoad& load) {
   return rest;
 }
 
-// The one that asks for the least.
+// The bound that asks for the least.
 Symmetric<Sloped> least_of(const std::vector<Symmetric<Sloped>>& enough, const Pair<double>& weight) {
   if (enough.size() == 1) return enough.front();
   std::size_t best = 0;

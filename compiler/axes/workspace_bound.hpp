@@ -21,14 +21,14 @@
 
 namespace dashpot::compiler::axes {
 
-// What a port's network may ask of the motors, bounded by the workspace alone.
+// Bounds of the force that a port's network may ask of the motors, from the workspace alone.
 struct PortLoad {
   PortMap map;
   double held = 0;       // S of a prompt loop: β, or the supremum of section 6b [N/m]
   double grounded = 0;   // k0: the force k0 w [N/m]
   double relaxing = 0;   // Σ c_i of the modes: within c_i (w − w⁺) … c_i (w − w⁻), over the workspace [N/m]
   double yields = 0;     // of the slips, ± [N]
-  double estimated = 0;  // what comes of an estimate at most, ± [N]
+  double estimated = 0;  // largest force that comes from an estimate, ± [N]
   double clamp = unlimited;  // what the port's force is clamped to, ± [N]
   bool unilateral = false;  // 0 ≤ M ≤ (k0 + Σ c_i) (w − surface) + yields + estimated, nothing where w < surface
   double surface = 0;       // of a unilateral port [m]

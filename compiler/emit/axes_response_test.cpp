@@ -42,8 +42,8 @@ Rounded sqrt(const Rounded& a) {
   const double root = std::sqrt(a.value);
   return {root, a.error / (2 * root) + 4 * root};
 }
-// A law's own miss by less than 2 units (sine_error()), and round less than six times; what is left of an angle beside
-// whole half turns is off by two units of the angle.
+// The law's sine and cosine miss by less than 2 units (sine_error()) and round less than six times; reducing an angle
+// by half turns makes an error of two units of the angle.
 Rounded turned_by(double value, double slope, const Rounded& angle) {
   return {value, std::abs(slope) * (angle.error + 2 * std::abs(angle.value)) + 8};
 }
@@ -130,7 +130,7 @@ Expected expected_at(const AxesCompilation& c, const Pair<double>& joints) {
   return sum;
 }
 
-// Of what is felt of a velocity there is a closed form where nothing slides, touches or is gated.
+// The force felt at a velocity has a closed form only if nothing slides, touches or is gated.
 std::string why_no_motion_is_played(const AxesCompilation& c) {
   if (c.certificate.gate) return "a gate";
   for (const Compilation& port : c.ports) {

@@ -134,7 +134,7 @@ class Wording {
   }
 
  private:
-  // NUMBER(…) as a literal; `place` is behind the word, and goes behind the parenthesis.
+  // NUMBER(…) as a literal; `place` is after the word, and moves past the closing parenthesis.
   std::string number(std::string_view line, std::size_t& place) const {
     const std::size_t close = line.find(')', place);
     const std::string digits(line.substr(place + 1, close - place - 1));

@@ -14,7 +14,7 @@ namespace dashpot::compiler {
 // name.
 std::string c99_name(const Compilation& compilation);
 
-// Of <name>.h, all of it, including nothing. Refuses what emit_c99() refuses.
+// The whole text of <name>.h, which includes nothing. Refuses what emit_c99() refuses.
 std::optional<std::string> c99_source(const Compilation& compilation, const EmissionOptions& options,
                                       Diagnostics& diagnostics);
 

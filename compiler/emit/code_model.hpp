@@ -1,4 +1,4 @@
-// What a template needs, as strings: decisions are made before, shapes come after.
+// The strings that a template fills in: decisions are made before, the template gives the shape.
 #pragma once
 
 #include <map>

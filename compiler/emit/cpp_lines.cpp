@@ -9,9 +9,9 @@ constexpr std::size_t line_width = 112;
 
 std::size_t indentation(const std::string& text) { return std::min(text.find_first_not_of(' '), text.size()); }
 
-// The blank, not beyond `limit` and outside of [], that a line is best broken at: behind a plus, else behind a comma
-// but that of an array and its place, else behind a product's sign, else between the two of a choice, else behind
-// another sign; 0 where there is none.
+// The best blank to break a line at, not beyond `limit` and not inside []: after a plus; else after a comma, except the
+// one between an array and its index; else after a product's sign; else between the two values of a choice; else after
+// another sign. 0 if there is none.
 std::size_t break_place(const std::string& text, std::size_t limit) {
   std::size_t plus = 0, comma = 0, product = 0, choice = 0, other = 0;
   int depth = 0;

@@ -62,7 +62,7 @@ class CppPrinter {
  private:
   std::string name_of(VariableId id) const { return CppStatements::scalar_name(law_.variables[id]); }
 
-  // The names that the law has for what the caller gives.
+  // Gives the caller's arguments the names that the law uses.
   std::string joint_inputs() const {
     std::string line;
     const auto append_inputs = [&](const std::vector<VariableId>& inputs, const char* array) {
@@ -129,8 +129,8 @@ class CppPrinter {
                                lanes_of_loops(law_).count, bytes_ > 0 ? fmt::format(", {}", bytes_) : ""));
   }
 
-  // What output() finds, update() uses at once. That nothing is left to update() is stored last: before, it would hold
-  // up the states.
+  // update() uses the locals of output() at once. `sampled_` is cleared last: cleared earlier, it would delay the
+  // states.
   std::vector<std::string> fused(const CppProgram& program) {
     const std::map<VariableId, VariableId> carried = carried_numbers(law_);
     std::vector<Statement> kept = law_.keep;
@@ -152,7 +152,7 @@ class CppPrinter {
           fmt::format("static constexpr scalar damping = {};  // b, the brake's part", literal(law_.damping)));
     if (uses(law_, Operation::flush) || uses(law_, Operation::relax) || !law_.guards.empty())
       lines.push_back(
-          fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state",
+          fmt::format("static constexpr scalar threshold = {};  // smaller forces become zero: no state is subnormal",
                       literal(law_.flush_threshold)));
     for (CoefficientId read : constants_read(law_)) append_constant(law_.coefficients[read], lines);
     append_constant_tables(law_, lines);

@@ -118,7 +118,7 @@ void add_mechanics(const mechanics_description& mechanics, Facts& facts) {
   facts.number("mechanics.backlash", mechanics.backlash, "m", "rad");
 }
 
-// What only a loop in real time, its mechanics and its chance have a use for.
+// Whether only a real-time loop, the mechanics or random draws use this field.
 bool is_idle_when_led(const std::string& field, const device_description& device) {
   constexpr std::string_view idle[] = {"loop.jitter",
                                        "loop.band_low",

@@ -1,4 +1,4 @@
-// The functions of the FMI standard that a unit for co-simulation exports without having a use for them.
+// The functions of the FMI standard that a co-simulation unit must export although it has no use for them.
 #pragma once
 
 #include <string_view>
@@ -11,9 +11,9 @@ namespace dashpot::compiler {
 
 // As templates take them: function, parameters, and a statement that reads them all.
 struct FmiFunctions {
-  std::vector<Fields> without;      // of variables of a type that no variable has: an error unless none is asked for
-  std::vector<Fields> refused;      // an error always
-  std::vector<Fields> no_instance;  // that make an instance of another kind of unit
+  std::vector<Fields> without;      // for types that no variable has: an error unless no variable is asked for
+  std::vector<Fields> refused;      // always an error
+  std::vector<Fields> no_instance;  // make an instance of another kind of unit
 };
 
 FmiFunctions unused_functions(FmiVersion version);

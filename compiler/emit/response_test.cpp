@@ -24,10 +24,10 @@ double test_tolerance(const UpdateLaw& law) {
   return law.relative_error_bound + roundoff * double(2 * (8 + cost.additions + cost.multiplications));
 }
 
-// Of the force: the map's tables and the way through them, and what the law does behind it.
+// Relative error of the force: the map's tables and their evaluation, plus the law behind the map.
 double curve_tolerance(const UpdateLaw& law) { return test_tolerance(law) + 64 * unit_roundoff(law.scalar); }
 
-// What the motor holds in its first sample, where the law keeps to its limits.
+// The largest force that the motor can hold in its first sample, if the law keeps to the motor's limits.
 double largest_held(const Compilation& c) {
   double force = std::numeric_limits<double>::infinity();
   for (const double limit : {c.certificate.loop.max_force, largest_change(c.certificate.loop)})
@@ -55,7 +55,7 @@ RestForce rest_on_spring(const Compilation& c, double depth) {
 RestForce rest_on_curve(const Compilation& c, double depth) {
   const MotionMap& map = *c.network.map;
   const StaticCurve& curve = *c.network.static_curve;
-  const double kept = to_double(c.form.linear.static_stiffness) / map.stiffness;  // of a curve that is met at once
+  const double kept = to_double(c.form.linear.static_stiffness) / map.stiffness;  // for a curve of instantaneous force
   const double largest = kept * to_double(force_at(curve, Real(map.reach)));
   const double steepest = map.largest_tangent(0, depth),
                stiffness =
@@ -75,7 +75,7 @@ std::vector<Fields> rest_on_spring(const Compilation& c) {
   return {rest_at(depth, stiffness * depth, test_tolerance(c.law) * stiffness, stiffness)};
 }
 
-// From where the curve's cubics end inwards by halves.
+// Depths from the end of the curve's cubics inwards, each half of the one before.
 std::vector<Fields> rests_on_curve(const Compilation& c) {
   constexpr int halvings = 6;
   std::vector<Fields> rests;
@@ -95,7 +95,7 @@ std::vector<Fields> rests_of_ports(const Compilation& c) {
     const double surface = port.network.surface();
     if (port.network.map) deepest = std::max(deepest, surface + port.network.map->reach);
   }
-  if (deepest == 0) deepest = 0.5;  // of springs alone any will do
+  if (deepest == 0) deepest = 0.5;  // springs alone: any depth is fine
   std::vector<Fields> rests;
   for (int i = 0; i <= halvings; ++i) {
     const double depth = std::ldexp(deepest, -i);

@@ -1,4 +1,4 @@
-// The tables that the solvers of slips read, alike in C++ and C but for how the language writes things.
+// The tables that the solvers of slips read; C++ and C differ only in notation.
 #pragma once
 
 #include <functional>

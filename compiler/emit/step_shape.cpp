@@ -13,8 +13,8 @@ std::size_t operations_of(const UpdateLaw& law) {
   return operations_of(cost_of(law, law.output)) + operations_of(cost_of(law, law.update));
 }
 
-// What the headers of C99 declare, and some of POSIX: in C the network is a type of its name beside these, whatever
-// else a program includes. `self` is the pointer to it.
+// Names that the headers of C99, and some of POSIX, declare: in C the network's type has its name beside these,
+// whatever else a program includes. `self` is the pointer to it.
 constexpr std::string_view names_of_c =
     " FILE I abort abs access alarm asctime atexit atof atoi atol atoll bcmp bcopy bsearch btowc bzero calloc "
     "clearerr clock clock_t close complex ctime difftime div div_t double_t drem dup exit fclose feclearexcept "

@@ -10,8 +10,8 @@
 namespace dashpot::compiler {
 namespace {
 
-// "restrict", the one word that C keeps and C++ does not, with an underscore behind it, or a number where another
-// parameter is called that.
+// The name in C: "restrict", a keyword of C and not of C++, gets an underscore, or a number if another parameter has
+// that name.
 std::string member_in_c(const std::string& name, const std::vector<Tunable>& all) {
   if (name != "restrict") return name;
   std::string member = "restrict_";

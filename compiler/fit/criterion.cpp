@@ -9,10 +9,10 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// Where there are as many rows: a spectrum whose storage and loss disagree would be worth 3.
+// Used if there are that many rows: a spectrum whose storage and loss disagree would otherwise count as 3.
 constexpr double least_effective = 12;
 
-// What the model leaves, in runs whose rows follow each other.
+// The residuals, in runs of consecutive rows.
 std::vector<VectorXd> runs(const Problem& problem, const Model& model) {
   const VectorXd left = residual(problem, model);
   std::vector<VectorXd> list;

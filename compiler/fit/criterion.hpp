@@ -1,4 +1,4 @@
-// How many samples a recording is worth, and which of several models it supports.
+// The effective number of samples in a recording, and a criterion to choose between models.
 #pragma once
 
 #include "fit/problem.hpp"
@@ -10,10 +10,10 @@ namespace dashpot::compiler::fitting {
 // Rows that follow each other much faster than anything happens carry little new information.
 double effective_samples(const Problem& problem, const Model& model);
 
-// The same of what a model leaves in one run of rows.
+// The same from the residuals of one run of rows.
 double effective_samples(const Eigen::VectorXd& left);
 
-// Of what the model leaves in one file: correlation of a row with the next.
+// Correlation of neighbouring residuals in one file.
 double lag_one_correlation(const Eigen::VectorXd& left);
 
 // Bayesian information criterion n_e ln(RSS/n) + p ln n_e, n the weighted rows: less is better.

@@ -324,8 +324,8 @@ class Followers {
 
   double tried(double change, double step) const { return Followers(*this).advance(change, step); }
 
-  // Where the force is 0, one change being known at which it pulls. The force rises with the change, in a straight line
-  // but for slips.
+  // The change at which the force is 0, given one at which it pulls. The force rises with the change, in a straight
+  // line except for slips.
   double released(double pulling, double step, double most) const {
     const double other = pulling < 0 ? 0 : most;
     const double at_other = tried(other, step), at_pulling = tried(pulling, step);
@@ -396,7 +396,7 @@ void put_behind(Signal& signal, const CurveShape& curve) {
   }
 }
 
-// A sensor's offset is none of the tissue's force.
+// A sensor's offset does not belong to the tissue's force, so w′ does not apply to it.
 Column levered(const Signal& signal, const Term& term, Column column) {
   if (signal.lever.empty() || term.kind == TermKind::offset) return column;
   return column.cwiseProduct(Eigen::Map<const Column>(signal.lever.data(), signal.rows()));

@@ -161,7 +161,7 @@ void basic_board_device<Axes>::drop_backlog() noexcept {
   fresh_ = backlog_ = false;
 }
 
-// A board says nothing that only a host may say: such a frame is an echo, and no answer.
+// A frame that only a host may send is an echo, not an answer of the board.
 template <unsigned Axes>
 void basic_board_device<Axes>::take(const board::frame& from) noexcept {
   switch (from.type) {
@@ -195,8 +195,8 @@ void basic_board_device<Axes>::take_sample(const board::frame& from) noexcept {
   fresh_ = true;
 }
 
-// Where the board says 0 it may have heard of no command yet. Where it does not run, no command is in force, and none
-// that is still under way will be.
+// If the board reports command 0, it may not have received one yet. If it is not running, no command is in force, nor
+// will one be that is still under way.
 template <unsigned Axes>
 typename basic_board_device<Axes>::report_type basic_board_device<Axes>::report() const noexcept {
   const auto applied = converted<Axes, actuation_type>(newest_);

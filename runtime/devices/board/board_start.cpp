@@ -70,7 +70,7 @@ std::string difference_of_brake(double max_damping, double described, const char
   return {};
 }
 
-// What makes the board another one than the described; empty where nothing does. A board that can do more is welcome.
+// How the board differs from the described one; empty if it does not. A board that can do more is accepted.
 template <unsigned Axes>
 std::string difference(const board::basic_description_message<Axes>& board,
                        const typename board::loop_types<Axes>::description& described) {

@@ -12,7 +12,7 @@ constexpr const device_description& described_joint(const arm_description& arm, 
   return arm.joints[joint];
 }
 
-// One that is not there makes no damping.
+// A brake that the device does not have makes no damping.
 constexpr brake_description described_brake(const device_description& device, unsigned) noexcept {
   return device.brake;
 }

@@ -22,13 +22,13 @@
 
 namespace dashpot::board {
 
-// What a firmware without a model has in its place.
+// Stands in for the model in a firmware without one.
 struct no_model {};
 
 template <class Model>
 inline constexpr unsigned axes_of = has_two_axes<Model> ? arm_axes : 1;
 
-// Dampings that a model commands.
+// The number of brakes that a model commands.
 template <class Model>
 constexpr unsigned brakes_that_drive() noexcept {
   if constexpr (has_two_axes<Model>) return static_cast<unsigned>(Model::brakes);

@@ -1,6 +1,5 @@
-// The motor, brake and encoder of a board that has none: a handle on a rail, moved by a hand that knows where it wants
-// to go. Deterministic, in single precision, alike to the last bit on every processor that is told not to fuse
-// operations.
+// Simulates motor, brake and encoder for a board that has none: a handle on a rail, moved by a hand along a given path.
+// Deterministic, in single precision, alike to the last bit on every processor that is told not to fuse operations.
 //
 //     m v̇ = F_motor + k (q_wanted(t) − q) − (b_hand + b_brake) v,    q̇ = v        (implicit in the dampers)
 //

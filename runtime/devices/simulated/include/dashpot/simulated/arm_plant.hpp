@@ -49,7 +49,7 @@ class arm_plant {
   // As plant::advance(); `sensors` of each joint.
   void advance(double duration, double end, const arm_actuation& demand, shaft_sensors (&sensors)[arm_axes]) noexcept;
 
-  // Of a motor until the next, beside what is asked for [N·m] or [N].
+  // A disturbance of a motor, in addition to its command, until the next call [N·m] or [N].
   void disturb(unsigned joint, double torque) noexcept { motors_[joint].disturb(torque); }
 
   shaft_motion shaft(unsigned joint) const noexcept { return {time_, now_.q[joint], now_.v[joint]}; }

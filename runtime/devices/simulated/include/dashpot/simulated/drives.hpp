@@ -19,7 +19,7 @@ class drives {
   void demand(const actuation& demand) noexcept;
   void advance(double duration) noexcept;  // [s]
 
-  // What the amplifier adds of itself, behind lag and limit, until the next [N·m] or [N].
+  // A disturbance that the amplifier adds after lag and limit, until the next call [N·m] or [N].
   void disturb(double torque) noexcept { disturbance_ = torque; }
 
   double torque() const noexcept { return disturbed(torque_); }  // of the motor, along +q [N·m] or [N]
@@ -27,7 +27,7 @@ class drives {
   double damping() const noexcept { return damping_of(coil_.root_damping()); }  // of the brake, at no speed
   double damping_after(double duration) const noexcept { return damping_of(coil_.after(demanded_root_, duration)); }
 
-  // What is left at `velocity` of a damping at no speed [N·m·s/rad] or [N·s/m].
+  // The damping at `velocity` that is `damping` at rest, by the brake's fading [N·m·s/rad] or [N·s/m].
   double at_speed(double damping, double velocity) const noexcept {
     const double share = velocity * per_critical_speed_;
     return damping / (1 + share * share);

@@ -56,7 +56,7 @@ class stepped_plant {
     shaft_.time = end;
   }
 
-  // Of the motor until the next, beside what is asked for [N·m] or [N].
+  // A disturbance of the motor, in addition to its command, until the next call [N·m] or [N].
   void disturb(double torque) noexcept { drives_.disturb(torque); }
 
   shaft_motion shaft() const noexcept { return shaft_; }

@@ -51,7 +51,7 @@ std::string verdict(const Certificate& c, const std::string& unit) {
                      numbers, missing, unit, of_it);
 }
 
-// K against 2 f_c/Δ, and what friction leaves.
+// Compares K with 2 f_c/Δ, the most that friction pays for, and says how much energy is left beyond it.
 std::string quantisation_text(const Certificate& c, const PortUnits& units) {
   std::string text =
       c.quantisation_gain
@@ -85,8 +85,8 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
         c.added_damping, unit, c.added_damping));
   if (c.certified && c.loop.encoder_step > 0)
     lines.push_back(
-        "  the proof takes the position for exact: what the steps of the encoder add is not part of it, and is told by "
-        "'dashpot explain' under quantisation");
+        "  the proof takes the position for exact: the energy that the encoder's steps add is not part of it; 'dashpot "
+        "explain' states it under quantisation");
   if (!c.energy.applies) return lines;
   std::string energy = "energy: ";
   if (!c.energy.holds)
@@ -97,7 +97,8 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
     energy +=
         "whatever the values within their ranges, no motion gets more work out of the law than stored_energy() falls";
   else if (c.energy.with_slips)
-    energy += "no motion gets more work out of any part than the part has stored, and what slips or touches only takes";
+    energy +=
+        "no motion gets more work out of any part than the part has stored, and slips and contacts only take energy";
   else if (c.energy.storage == EnergyStorage::emitted)
     energy += "no motion gets more work out of the law than stored_energy() falls";
   else

@@ -8,7 +8,7 @@ ContactSurface::ContactSurface(LawWriter& writer, double at, double encoder_step
 void ContactSurface::declare() {
   surface_ = writer_.scalar("surface", writer_.length(), "s, how far the surface is pushed in", Role::state);
   if (at_ != 0)
-    depth_ = writer_.scalar("depth", writer_.length(), "of the tool behind the unloaded surface", Role::local);
+    depth_ = writer_.scalar("depth", writer_.length(), "how far the tool is beyond the unloaded surface", Role::local);
   approach_ =
       writer_.scalar("approach", writer_.length(), "Δ, the surface's change if it stuck to the tool", Role::local);
   change_ = writer_.scalar("surface_change", writer_.length(), "Δs since the sample before", Role::local);
@@ -33,26 +33,27 @@ ExpressionId ContactSurface::depth_now() {
 }
 
 ExpressionId ContactSurface::none() {
-  return writer_.constant("none", writer_.force(), "of a free tool", 0, ConstantRole::zero);
+  return writer_.constant("none", writer_.force(), "no force on a free tool", 0, ConstantRole::zero);
 }
 
 void ContactSurface::write_change(const Real& stiffness, VariableId held) {
-  none();  // the first constant of a contact, whatever follows
+  none();  // made first, so that the order of the constants is always the same
   write_change(writer_.constant("recovery_compliance", writer_.compliance(), "−1/g",
                                 stiffness > 0 ? Real(-1 / stiffness) : Real(0), ConstantRole::recovery_compliance),
                held);
 }
 
-// f(Δ) ≥ 0 where Δ ≥ −π/g
+// With π the held force: f(Δ) = g Δ + π ≥ 0 where Δ ≥ −π/g
 void ContactSurface::write_change(ExpressionId recovery_compliance, VariableId held) {
   std::vector<Statement>& output = writer_.law().output;
   const VariableId recovery =
       writer_.scalar("surface_recovery", writer_.length(), "the surface's change if nothing touched it", Role::local);
   writer_.assign(output, recovery,
                  writer_.multiply(recovery_compliance, held == no_variable ? none() : writer_.read(held)),
-                 "f = 0 at Δs = −π/g");
+                 "Δs where f = 0: −held force/g");
   const ExpressionId ahead = writer_.subtract(writer_.read(recovery), writer_.read(approach_));
-  writer_.assign(output, change_, writer_.where(ahead, writer_.read(recovery), writer_.read(approach_)), "f ≥ 0");
+  writer_.assign(output, change_, writer_.where(ahead, writer_.read(recovery), writer_.read(approach_)),
+                 "Δs = Δ, but no lower than where f = 0");
 }
 
 void ContactSurface::write_surface() {
@@ -124,16 +125,16 @@ void ContactSurface::write_command(VariableId opposing, const CommandInTouch& to
                  "m = f − b u̇ of a tool that touches");
 }
 
-// The state lets go with f; the command only where f′ + b∞ v̂ < 0, or beyond a gap that the encoder tells from none, or
-// where nothing pushes any more.
+// The surface leaves the tool where f would fall below 0. The command ends later: where f′ + b∞ v̂ < 0, where the gap is
+// more than an encoder step, or where there is a gap and nothing pushes any more.
 ExpressionId ContactSurface::release_of(VariableId opposing, ExpressionId felt, ExpressionId none) {
   const VariableId pull =
-      writer_.scalar("pull", writer_.force(), "what the tool would feel, the other way", Role::local);
+      writer_.scalar("pull", writer_.force(), "how hard the command would pull at the tool", Role::local);
   writer_.assign(writer_.law().output, pull, writer_.subtract(none, felt), "−(f′ + b∞ v̂)");
   ExpressionId opened = writer_.read(gap_);
   if (encoder_step_ > 0) {
     const ExpressionId step = writer_.constant("encoder_step", writer_.length(),
-                                               "of the gap before the command lets go", Real(encoder_step_));
+                                               "largest gap at which the command goes on", Real(encoder_step_));
     const ExpressionId pushed = writer_.where(writer_.read(opposing), none, writer_.read(gap_));
     opened = writer_.where(writer_.subtract(writer_.read(gap_), step), writer_.read(gap_), pushed);
   }

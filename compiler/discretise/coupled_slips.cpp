@@ -71,7 +71,7 @@ void CoupledSlips::declare() {
   if (!has_signs_) return;
   for (const NormalTree* slip : table_.slips)
     signs_.push_back(writer_.scalar(joined(writer_.unique(name_of(slip->elements, network_)), "sign"), "1",
-                                    "side to which the slip gives way", Role::local));
+                                    "direction in which the slip slides, 0 while it holds", Role::local));
 }
 
 ExpressionId CoupledSlips::write_output(VariableId change, VariableId surface_change) {
@@ -87,8 +87,7 @@ ExpressionId CoupledSlips::write_output(VariableId change, VariableId surface_ch
   coupling.surface = surface_change;
   const VariableId force =
       writer_.scalar(joined(name_, "force"), writer_.force(), "the component's force", Role::local);
-  writer_.assign(law.output, force, writer_.read(change), "f and every block's δ, by curves, signs and numbers",
-                 origins());
+  writer_.assign(law.output, force, writer_.read(change), "slip_tree: f, and δ of every block", origins());
   law.output.back().step = SolveTree{law.couplings.add(std::move(coupling))};
   return writer_.read(force);
 }
@@ -98,10 +97,11 @@ VariableId CoupledSlips::write_held(const Block& block) {
   if (block.is_elsewhere) return held_elsewhere_;
   if (!block.modes) return block.spring_force;
   if (!block.has_spring()) return block.modes->decayed_sum();
-  const VariableId held = writer_.scalar(joined(block.name, "held"), writer_.force(), "force at rest", Role::local);
+  const VariableId held =
+      writer_.scalar(joined(block.name, "held"), writer_.force(), "force if the block keeps its length", Role::local);
   writer_.assign(writer_.law().output, held,
                  writer_.add(writer_.read(block.spring_force), writer_.read(block.modes->decayed_sum())),
-                 "π = F0 + Σ a F");
+                 "force of the spring + Σ a F");
   return held;
 }
 

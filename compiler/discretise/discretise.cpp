@@ -89,8 +89,8 @@ class LawBuilder {
       change_ = writer_.scalar("position_change", writer_.length(), "Δu since the sample before", Role::local);
   }
 
-  // f_k = S + k0 u_k + (Σc) Δu + (b∞ − b) u̇_k, in two halves: neither the sample nor S, which is the last to be stored,
-  // then passes through every sum.
+  // f_k = S + k0 u_k + (Σc) Δu + (b∞ − b) u̇_k, added up in two halves: the sample comes last, and so does S, which
+  // update() stores last; neither then waits for every addition.
   void write_output() {
     if (change_ != nothing)
       writer_.assign(law_.output, change_,
@@ -100,11 +100,10 @@ class LawBuilder {
                                              writer_.stiffness(), "k0", form_.static_stiffness, law_.position);
     const ExpressionId stepped =
         plus_product(ConstantRole::step_stiffness, nothing, "step_stiffness", writer_.stiffness(),
-                     "Σ c_i, answer of all modes within a sample", modes_.step_stiffness(), change_);
+                     "Σ c_i, stiffness of all modes within a sample", modes_.step_stiffness(), change_);
     const Real of_motor = feedthrough_of_motor(), of_modes = modes_.velocity_gain(), together = of_motor + of_modes;
     const Real velocity_gain = abs(together) <= negligible_share * abs(of_modes) ? Real(0) : together;
-    const char* meaning =
-        modes_.follows_velocity() ? "b∞ − b + h Σ c_i, what the estimate drives within a sample" : "b∞ − b";
+    const char* meaning = modes_.follows_velocity() ? "b∞ − b + h Σ c_i, force for an estimated velocity" : "b∞ − b";
     const ExpressionId driven = plus_product(ConstantRole::velocity_gain, nothing, "velocity_gain", writer_.damping(),
                                              meaning, velocity_gain, law_.velocity);
     ExpressionId sum = stepped == nothing ? writer_.plus(held, writer_.plus(placed, driven))
@@ -114,7 +113,7 @@ class LawBuilder {
     sum = brake_.left_to_motor(sum);
     brake_.write_command();
     if (sum == nothing)
-      sum = writer_.constant("no_force", writer_.force(), "nothing is left to the motor", 0, ConstantRole::zero);
+      sum = writer_.constant("no_force", writer_.force(), "the motor has nothing to do", 0, ConstantRole::zero);
     writer_.assign(law_.output, law_.force, sum, "m = f − b u̇", {effective_elements(network_)});
   }
 
@@ -123,7 +122,7 @@ class LawBuilder {
     const Real& feedthrough = form_.feedthrough_damping;
     contact_->write_approach();
     const VariableId opposing =
-        writer_.scalar("opposing", writer_.force(), "f′, the network's force but for b∞ Δs/h", Role::local);
+        writer_.scalar("opposing", writer_.force(), "f′, the network's force without b∞ Δs/h", Role::local);
     ExpressionId sum = nothing;
     if (!slips_.empty()) {
       sum = slips_.write_push(contact_->approach(), contact_->change(), {linear_stiffness(), write_held()});
@@ -137,10 +136,11 @@ class LawBuilder {
       sum = plus_product(ConstantRole::static_stiffness, sum, "static_stiffness", writer_.stiffness(), "k0",
                          form_.static_stiffness, contact_->now());
       sum = plus_product(ConstantRole::step_stiffness, sum, "step_stiffness", writer_.stiffness(),
-                         "Σ c_i, answer of all modes within a sample", modes_.step_stiffness(), contact_->change());
+                         "Σ c_i, stiffness of all modes within a sample", modes_.step_stiffness(), contact_->change());
       if (!modes_.empty()) sum = writer_.plus(sum, writer_.read(modes_.decayed_sum()));
     }
-    if (sum == nothing) sum = writer_.constant("none", writer_.force(), "of a free tool", 0, ConstantRole::zero);
+    if (sum == nothing)
+      sum = writer_.constant("none", writer_.force(), "no force on a free tool", 0, ConstantRole::zero);
     writer_.assign(law_.output, opposing, sum, "f′ = f − b∞ Δs/h", {effective_elements(network_)});
     contact_->write_command(opposing, feedthrough, brake_.behind_contact());
   }
@@ -157,8 +157,8 @@ class LawBuilder {
     if (!modes_.empty()) held = writer_.plus(held, writer_.read(modes_.decayed_sum()));
     if (held == nothing) return no_variable;
     const VariableId force =
-        writer_.scalar("held_force", writer_.force(), "of the linear part if the surface stayed", Role::local);
-    writer_.assign(law_.output, force, held, "π = k0 s₋ + S");
+        writer_.scalar("held_force", writer_.force(), "force of the linear part if the surface stays", Role::local);
+    writer_.assign(law_.output, force, held, "k0 s₋ + S");
     return force;
   }
 
@@ -209,7 +209,7 @@ class LawBuilder {
   LawWriter writer_;
   const Network& network_;
   const LinearForm& form_;
-  double linear_damping_;  // b of what reaches ground without a slip [N·s/m]
+  double linear_damping_;  // b of the part that reaches ground without a slip [N·s/m]
   Real sample_period_;
   ModeBank modes_;
   SlipParts slips_;
@@ -218,7 +218,7 @@ class LawBuilder {
   VariableId change_ = nothing;
 };
 
-// The fastest alone is shown: it decides which rate samples them all.
+// Only the fastest is shown: a rate that is high enough for it is high enough for all.
 void warn_about_fast_relaxations(const Network& network, const LinearForm& form, double period,
                                  Diagnostics& diagnostics) {
   const auto is_fast = [&](const Mode& mode) { return to_double(1 / mode.relaxation_rate) < 2 * period; };
@@ -233,7 +233,7 @@ void warn_about_fast_relaxations(const Network& network, const LinearForm& form,
     diagnostics.note<DiagnosticCode::fast_relaxation_remedy>({}, std::ceil(2 / relaxation_time));
 }
 
-// The stiffest mode's rounding against the slowest mode's whole force.
+// Warns if a rounding error of the stiffest mode is as large as the whole force of the slowest.
 void warn_about_float_range(const Network& network, const LinearForm& form, Diagnostics& diagnostics) {
   if (form.modes.empty()) return;
   Real stiffest = form.static_stiffness;
@@ -244,7 +244,7 @@ void warn_about_float_range(const Network& network, const LinearForm& form, Diag
   diagnostics.report<DiagnosticCode::float_range>(network.name_span, name_of(slowest.elements, network), ratio);
 }
 
-// The linear part as its states have it.
+// The form of the linear part whose modes are the law's states.
 const LinearForm& realised_part(const NormalForm& form, const Decomposition& decomposition) {
   return decomposition.choice().state_input == StateInput::nodal ? decomposition.realisation : form.linear;
 }

@@ -35,7 +35,8 @@ ExpressionId LawBrake::left_to_motor(ExpressionId force) {
     force = compensated(force, reading(writer_, part.brake->compensation()));
   const Real steady = sum([](const SlipBrake& brake) { return brake.steady_compensation(); });
   if (rounded(steady, writer_.law().scalar) > 0)
-    force = compensated(force, writer_.constant("slips_compensation", writer_.damping(), "β behind slips", steady));
+    force = compensated(force, writer_.constant("slips_compensation", writer_.damping(),
+                                                "β, damping of the brake that the motor takes back", steady));
   return made_up(force);
 }
 
@@ -44,7 +45,7 @@ ExpressionId LawBrake::compensated(ExpressionId sum, ExpressionId compensation) 
   return writer_.subtract(sum, writer_.multiply(compensation, writer_.read(writer_.law().velocity)));
 }
 
-// While the coil is on its way the motor makes up (b_regime − b) v̂, within what a brake that is always there covers.
+// While the coil lags behind its command the motor adds (b_regime − b) v̂, but no more than settings_.make_up allows.
 ExpressionId LawBrake::made_up(ExpressionId sum) {
   ExpressionId shortfall = nothing;
   for (const auto& group : parts_.groups()) shortfall = writer_.plus(shortfall, group->shortfall());
@@ -52,7 +53,8 @@ ExpressionId LawBrake::made_up(ExpressionId sum) {
     shortfall = writer_.plus(shortfall, reading(writer_, part.brake->shortfall()));
   if (shortfall == nothing) return sum;
   const ExpressionId most =
-      writer_.constant("steady_make_up", writer_.damping(), "what the motor makes up at most", settings_.make_up);
+      writer_.constant("steady_make_up", writer_.damping(), "largest damping that the motor adds while the coil lags",
+                       settings_.make_up);
   return writer_.plus(sum, writer_.multiply(writer_.clamp(shortfall, most), writer_.read(writer_.law().velocity)));
 }
 
@@ -69,8 +71,9 @@ void LawBrake::write_command() {
   if (changing == nothing) return;
   const Real steady = with_linear(sum([](const SlipBrake& b) { return b.steady_damping(); }));
   if (steady > 0)
-    changing = writer_.plus(changing, writer_.constant("steady_damping", writer_.damping(), "of what no slip changes",
-                                                       steady, ConstantRole::steady_damping));
+    changing = writer_.plus(
+        changing, writer_.constant("steady_damping", writer_.damping(), "b of the parts that no slip changes", steady,
+                                   ConstantRole::steady_damping));
   law.brake = writer_.scalar("damping", writer_.damping(), "b, the brake's part", Role::local);
   writer_.assign(law.output, law.brake, changing, "b of the regime");
   law.last_brake = writer_.scalar("last_damping", writer_.damping(), "b of the sample before", Role::state);

@@ -53,7 +53,8 @@ void ModeBank::declare() {
                                   "sum of the modes' forces, decayed to the next sample", Role::state);
   forces_ = state("force", "force of the mode, decayed to the next sample");
   if (!are_several) decayed_sum_ = forces_;
-  if (writer_.law().mode_form == ModeForm::compensated) errors_ = state("error", "what rounding kept from the force");
+  if (writer_.law().mode_form == ModeForm::compensated)
+    errors_ = state("error", "rounding error of the force, carried along");
 }
 
 void ModeBank::write_update(VariableId position_change, VariableId velocity) {
@@ -65,8 +66,8 @@ void ModeBank::write_update(VariableId position_change, VariableId velocity) {
     case ModeForm::product: {
       const ExpressionId decay =
           per_mode(ConstantRole::decay, "decay", "1", decayed.c_str(), [](const auto& c) { return c.decay; });
-      // The guard looks at the force before, which waits for nothing; the drive comes first, so that the product that a
-      // compiler may fuse with the sum is that of the force.
+      // The guard tests the old force, which is there before the sample. The drive comes first in the sum: if a
+      // compiler fuses one product with the addition, it is then that of the force.
       writer_.assign(update, forces_, writer_.relax(decay, writer_.read(forces_), driven), "F ← a (F + c Δu)",
                      origins());
       break;

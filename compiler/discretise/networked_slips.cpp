@@ -57,7 +57,7 @@ Derivation NetworkedSlips::weight_of(const NetworkMode& mode, std::size_t termin
   return {ConstantRole::mode_weight, std::move(subject)};
 }
 
-// Of all terminals; the tool's own is the last.
+// Numbers all terminals; the tool is the last.
 void NetworkedSlips::number_ends() {
   for (NodeIndex node : form_.terminals)
     end_names_.push_back(writer_.unique(node == tool ? "tool" : network_.nodes[node]));
@@ -70,8 +70,8 @@ void NetworkedSlips::number_ends() {
   to_ground_.assign(nodes, Real(0));
 }
 
-// The number of a terminal in the step, or of the ground, which is behind the terminals. The surface of a contact is an
-// inner end, and the tool none of the network's.
+// The number in the step of a terminal, or of the ground, whose index follows those of the terminals. With a contact
+// the surface is an inner end, and no element ends at the tool.
 int NetworkedSlips::end_of(std::size_t terminal) const {
   const bool is_ground = terminal == form_.terminals.size();
   return is_ground ? step_.node_count + 1 : static_cast<int>(terminal);
@@ -136,7 +136,7 @@ void NetworkedSlips::declare() {
         writer_.scalar(joined(end_names_[i], "moved"), writer_.length(), "displacement of the node", Role::local));
   for (std::size_t k = 0; k < step_.links.size(); ++k) {
     const VariableId sign = writer_.scalar(joined(name_, fmt::format("sign_{}", k + 1)), "1",
-                                           "side to which the slip gives way", Role::local);
+                                           "direction in which the slip slides, 0 while it holds", Role::local);
     step_.sign.push_back(sign);
     step_.last_sign.push_back(writer_.kept(sign));
   }
@@ -170,8 +170,7 @@ ExpressionId NetworkedSlips::write_step(VariableId change) {
   UpdateLaw& law = writer_.law();
   round_stiffness();
   const VariableId force = writer_.scalar(joined(name_, "force"), writer_.force(), "the part's force", Role::local);
-  writer_.assign(law.output, force, writer_.read(change), "f and where every node goes, by patterns of slips",
-                 {elements_});
+  writer_.assign(law.output, force, writer_.read(change), "slip_network: f, and how far every node moves", {elements_});
   law.output.back().step = SolveNetwork{law.networks.add(step_)};
   return writer_.read(force);
 }
@@ -188,8 +187,8 @@ ExpressionId NetworkedSlips::held_at(std::size_t terminal) {
   for (const NetworkMode& mode : modes_) {
     if (mode.mode.weights[terminal] == 0) continue;
     const ExpressionId weight =
-        writer_.constant(joined(mode.name, joined("weight", end_names_[terminal])), "1", "of the mode there",
-                         mode.mode.weights[terminal], weight_of(mode, terminal));
+        writer_.constant(joined(mode.name, joined("weight", end_names_[terminal])), "1",
+                         "weight of the mode at this node", mode.mode.weights[terminal], weight_of(mode, terminal));
     sum = writer_.plus(sum, writer_.multiply(weight, writer_.read(mode.bank->decayed_sum())));
   }
   return sum;
@@ -200,7 +199,7 @@ VariableId NetworkedSlips::write_held(std::size_t terminal, VariableId beside) {
   if (beside != no_variable) sum = writer_.plus(sum, writer_.read(beside));
   if (sum == nothing) return no_variable;
   const VariableId held = writer_.scalar(joined(end_names_[terminal], "held"), writer_.force(),
-                                         "force at the node if it stayed", Role::local);
+                                         "force at the node if no node moves", Role::local);
   writer_.assign(writer_.law().output, held, sum, "");
   return held;
 }
@@ -221,8 +220,9 @@ ExpressionId NetworkedSlips::drive(const NetworkMode& mode) {
   ExpressionId sum = nothing;
   for (std::size_t i = 0; i < form_.terminals.size(); ++i) {
     if (mode.mode.weights[i] == 0) continue;
-    const ExpressionId weight = writer_.constant(joined(mode.name, joined("weight", end_names_[i])), "1",
-                                                 "of the mode there", mode.mode.weights[i], weight_of(mode, i));
+    const ExpressionId weight =
+        writer_.constant(joined(mode.name, joined("weight", end_names_[i])), "1", "weight of the mode at this node",
+                         mode.mode.weights[i], weight_of(mode, i));
     sum = writer_.plus(sum, writer_.multiply(weight, movement(i)));
   }
   return sum;
@@ -241,7 +241,7 @@ void NetworkedSlips::write_update() {
   }
   for (const NetworkMode& mode : modes_) {
     const VariableId driven = writer_.scalar(joined(mode.name, "drive"), writer_.length(), "", Role::local);
-    writer_.assign(update, driven, drive(mode), "wᵀ x");
+    writer_.assign(update, driven, drive(mode), "Σ weight · displacement of the node");
     mode.bank->write_update(driven, nothing);
   }
 }

@@ -10,7 +10,7 @@ ExpressionId SlideMemory::write_output(ExpressionId slides, VariableId position)
   const ExpressionId gone = writer_.subtract(writer_.read(position), writer_.read(at_));
   const ExpressionId still = writer_.subtract(area, writer_.multiply(gone, gone));
   writer_.assign(output, slides_now_, writer_.where(slides, one, writer_.where(still, writer_.read(slid_), none)),
-                 "for the command, sliding ends 1.5 steps of the encoder further on");
+                 "the command counts the slip as sliding until the tool has moved 1.5 encoder steps");
   writer_.assign(output, at_now_, writer_.where(slides, writer_.read(position), writer_.read(at_)), "");
   return writer_.read(slides_now_);
 }

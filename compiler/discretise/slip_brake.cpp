@@ -28,7 +28,7 @@ bool differ(const Shares& shares, bool (*same)(const BrakeShare&, const BrakeSha
 bool same_damping(const BrakeShare& x, const BrakeShare& y) { return x.damping == y.damping; }
 bool same_feedthrough(const BrakeShare& x, const BrakeShare& y) { return x.feedthrough == y.feedthrough; }
 
-// w of b = b_least + (b_most − b_least) w²
+// The way of this regime: b = b_least + (b_most − b_least) way²
 Real way_of(const BrakeShare& share, const Shares& all) {
   const double least = least_of(all), span = largest_of(all) - least;
   return span > 0 ? Real(std::sqrt((share.damping - least) / span)) : Real(0);
@@ -36,7 +36,7 @@ Real way_of(const BrakeShare& share, const Shares& all) {
 
 bool is_ramped(const ComponentSplit* split) { return split != nullptr && split->law == SlipLaw::ramped; }
 
-// Without a share in the brake.
+// The shares of a part that leaves nothing to the brake.
 const Shares nothing_taken = {BrakeShare{}};
 
 const Shares& shares_of(const ComponentSplit* split) { return split ? split->shares : nothing_taken; }
@@ -78,10 +78,11 @@ void SlipBrake::declare(const std::string& prefix, const Names& places, const Na
       memories_.emplace_back(writer_, Real(settings_.hysteresis), one_a_place);
     }
   if (!has_way()) return;
-  way_ = variable("way", "1", "w, of √(b − b_least)", Role::state);
+  way_ = variable("way", "1", "way of the brake from its least b, 0, to its most, 1", Role::state);
   const Shares& first = shares_of(splits_.front());
   writer_.law().variables[way_].rest_value = rounded(way_of(first.front(), first), writer_.law().scalar);
-  if (is_ramped() && coil_lags()) reached_ = variable("reached", "1", "q, of w what the coil has reached", Role::state);
+  if (is_ramped() && coil_lags())
+    reached_ = variable("reached", "1", "the part of the way that the coil has surely gone", Role::state);
 }
 
 void SlipBrake::write_output(const std::vector<ExpressionId>& slides, VariableId position) {
@@ -103,8 +104,9 @@ VariableId SlipBrake::write_regime(const char* what, const std::vector<Expressio
   ExpressionId sum = nothing;
   for (std::size_t i = 0; i < slides.size(); ++i) {
     const std::size_t weight = std::size_t{1} << i;
-    const ExpressionId bit =
-        i == 0 ? one() : writer_.constant("bit_" + std::to_string(i + 1), "1", "of a regime", Real(weight));
+    const ExpressionId bit = i == 0 ? one()
+                                    : writer_.constant("bit_" + std::to_string(i + 1), "1",
+                                                       "set in the regime where this slip gives way", Real(weight));
     sum = writer_.plus(sum, writer_.where(slides[i], bit, none()));
   }
   const VariableId regime = variable(what, "1", "which slips give way", Role::local);
@@ -120,53 +122,56 @@ void SlipBrake::write_damping() {
                      [](const BrakeShare& share, const Shares&) { return Real(share.damping); });
   };
   const ExpressionId wanted = !has_way() || may_fall_short ? of_regime() : nothing;
-  damping_ = variable("damping", writer_.damping(), "share of the brake", Role::local);
+  damping_ = variable("damping", writer_.damping(), "b of these slips", Role::local);
   if (!has_way()) return writer_.assign(output, damping_, wanted, "b of the regime");
   write_way();
-  const ExpressionId least = per_place("least_damping", writer_.damping(), "b of the regime with least",
+  const ExpressionId least = per_place("least_damping", writer_.damping(), "least b of all regimes",
                                        [](const Shares& shares) { return least_of(shares); });
-  const ExpressionId more = per_place("more_damping", writer_.damping(), "and what the one with most has more",
+  const ExpressionId more = per_place("more_damping", writer_.damping(), "largest b of all regimes less the least",
                                       [](const Shares& shares) { return largest_of(shares) - least_of(shares); });
   writer_.assign(
       output, damping_,
       writer_.add(least, writer_.multiply(more, writer_.multiply(writer_.read(way_now_), writer_.read(way_now_)))),
-      "b = b_least + (b_most − b_least) w²");
+      "b = b_least + (b_most − b_least) way²");
   if (!may_fall_short) return;
   shortfall_ = variable("shortfall", writer_.damping(), "", Role::local);
-  writer_.assign(output, shortfall_, writer_.subtract(wanted, writer_.read(damping_)), "b of the regime less b");
+  writer_.assign(output, shortfall_, writer_.subtract(wanted, writer_.read(damping_)), "b of the regime less b now");
 }
 
 void SlipBrake::write_way() {
-  const ExpressionId goal = by_regime("way_by_regime", "1", "w",
+  const ExpressionId goal = by_regime("way_by_regime", "1", "way of this regime",
                                       [](const BrakeShare& share, const Shares& all) { return way_of(share, all); });
   ExpressionId step = writer_.subtract(goal, writer_.read(way_));
   if (coil_lags()) {
-    const ExpressionId share = writer_.constant("coil_share", "1", "κ of a sample", settings_.coil_share);
+    const ExpressionId share = writer_.constant(
+        "coil_share", "1", "κ, share of the missing way that the coil goes in a sample", settings_.coil_share);
     step = writer_.multiply(share, step);
   }
   way_now_ = variable("way_now", "1", "", Role::local);
   if (is_ramped())
-    step = writer_.clamp(step, writer_.constant("ramp", "1", "ρ, of the way in a sample", settings_.ramp));
+    step = writer_.clamp(step, writer_.constant("ramp", "1", "ρ, largest step of the way in a sample", settings_.ramp));
   writer_.assign(writer_.law().output, way_now_, writer_.add(writer_.read(way_), step),
-                 is_ramped() ? "w ← w + clamp(κ (w_regime − w), ±ρ)" : "w ← w + κ (w_regime − w)");
+                 is_ramped() ? "way ← way + clamp(κ (way_regime − way), ±ρ)" : "way ← way + κ (way_regime − way)");
 }
 
-// β = β_most ((q − (N + n) ρ)⁺)²
+// β = β_most ((reached − (N + n) ρ)⁺)²
 void SlipBrake::write_compensation() {
   std::vector<Statement>& output = writer_.law().output;
   ExpressionId reached = writer_.read(way_now_);
   if (reached_ != nothing) {
     reached_now_ = variable("reached_now", "1", "", Role::local);
     const ExpressionId ahead = writer_.subtract(writer_.read(reached_), reached);
-    writer_.assign(output, reached_now_, writer_.where(ahead, reached, writer_.read(reached_)), "q ← min(q, w)");
+    writer_.assign(output, reached_now_, writer_.where(ahead, reached, writer_.read(reached_)),
+                   "reached ← min(reached, way)");
     reached = writer_.read(reached_now_);
   }
-  const ExpressionId unsure = writer_.constant("ramp_behind", "1", "(N + n) ρ, what an estimate reaches back",
-                                               Real(settings_.memory) * Real(settings_.ramp));
+  const ExpressionId unsure =
+      writer_.constant("ramp_behind", "1", "(N + n) ρ, change of the way over the memory of the velocity estimate",
+                       Real(settings_.memory) * Real(settings_.ramp));
   const VariableId earned = variable("earned", "1", "", Role::local);
   const ExpressionId left = writer_.subtract(reached, unsure);
-  writer_.assign(output, earned, writer_.where(left, left, none()), "(q − (N + n) ρ)⁺");
-  const ExpressionId most = per_place("compensation_most", writer_.damping(), "β at most", [](const Shares& shares) {
+  writer_.assign(output, earned, writer_.where(left, left, none()), "(reached − (N + n) ρ)⁺");
+  const ExpressionId most = per_place("compensation_most", writer_.damping(), "largest β", [](const Shares& shares) {
     double largest = 0;
     for (const BrakeShare& share : shares) largest = std::max(largest, share.compensation);
     return largest;
@@ -174,7 +179,7 @@ void SlipBrake::write_compensation() {
   compensation_ = variable("compensation", writer_.damping(), "", Role::local);
   writer_.assign(output, compensation_,
                  writer_.multiply(most, writer_.multiply(writer_.read(earned), writer_.read(earned))),
-                 "β = β_most ((q − (N + n) ρ)⁺)²");
+                 "β = β_most ((reached − (N + n) ρ)⁺)²");
 }
 
 ExpressionId SlipBrake::without_feedthrough(ExpressionId force, VariableId change, const Real& sample_period) {
@@ -206,7 +211,8 @@ void SlipBrake::write_update(VariableId released) {
   keep(way_, way, is_ramped());
   if (reached_ == nothing) return;
   const ExpressionId reached = writer_.read(writer_.kept(reached_now_));
-  const ExpressionId share = writer_.constant("coil_share", "1", "κ of a sample", settings_.coil_share);
+  const ExpressionId share = writer_.constant(
+      "coil_share", "1", "κ, share of the missing way that the coil goes in a sample", settings_.coil_share);
   keep(reached_, writer_.add(reached, writer_.multiply(share, writer_.subtract(way, reached))), true);
 }
 
@@ -237,7 +243,7 @@ ExpressionId SlipBrake::per_place(const char* name, const std::string& unit, con
   return writer_.constants({prefix_, name}, unit, meaning, values, places_, std::move(from));
 }
 
-// Of one slip a choice between its two values, of several a table.
+// With one slip a choice between two values, with several a table.
 template <class ValueOf>
 ExpressionId SlipBrake::by_regime(const char* name, const std::string& unit, const char* meaning, ValueOf value_of,
                                   ConstantRole role) {

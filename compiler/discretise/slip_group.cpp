@@ -131,15 +131,15 @@ void SlipGroup::declare() {
   brake_.declare(prefix_, names_, {prefix_});
 }
 
-// t = t_stuck, s = clamp(t, ±Y), r = t − s, f = f_stuck − ρ r
+// trial = force if stuck, slip = clamp(trial, ±Y), excess = trial − slip, f = f if stuck − factor · excess
 ExpressionId SlipGroup::write_output(VariableId change, VariableId position) {
   std::vector<Statement>& output = writer_.law().output;
   now_.change = change;
-  now_.trial = local("trial", "the slip's force if it held");
+  now_.trial = local("trial", "force of the slip if it held");
   std::vector<Row> trial = rows(&SlipResponse::trial);
   for (Row& row : trial) row.excess = 0;
   writer_.assign(output, now_.trial, expression({RowOf::trial}, trial, {change, nothing, nothing, nothing}),
-                 "t = stuck trial", origins());
+                 "trial = force of the slip if it held", origins());
   std::vector<Real> yields;
   for (const SlipResponse& response : responses_) yields.push_back(response.yield_force);
   now_.slip = local("slip", "the slip's force");
@@ -147,21 +147,23 @@ ExpressionId SlipGroup::write_output(VariableId change, VariableId position) {
   for (const SlipResponse& response : responses_) slips.push_back(OfElements{response.slip_elements});
   const ExpressionId limit = writer_.constants({prefix_, "yield"}, writer_.force(), "Y", yields, names_,
                                                {ConstantRole::yield, std::move(slips)});
-  writer_.assign(output, now_.slip, writer_.clamp(writer_.read(now_.trial), limit), "s = clamp(t, ±Y)", origins());
+  writer_.assign(output, now_.slip, writer_.clamp(writer_.read(now_.trial), limit), "slip = clamp(trial, ±Y)",
+                 origins());
   now_.excess = local("excess", "what the slip does not hold");
-  writer_.assign(output, now_.excess, writer_.subtract(writer_.read(now_.trial), writer_.read(now_.slip)), "r = t − s");
-  // Above zero where the slip gives way: r has the sign of s.
+  writer_.assign(output, now_.excess, writer_.subtract(writer_.read(now_.trial), writer_.read(now_.slip)),
+                 "excess = trial − slip");
+  // Above zero where the slip gives way: the excess has the sign of the slip's force.
   const ExpressionId sliding = writer_.multiply(writer_.read(now_.excess), writer_.read(now_.slip));
   const ExpressionId force = write_force(sliding);
   brake_.write_output({sliding}, position);
-  // Sums after all vectors: what a loop computes does not outlive it.
+  // The sums come after all vectors, so that the loops for the vectors stay together.
   damping_ = summed("damping", brake_.changing_damping());
   shortfall_ = summed("shortfall", brake_.shortfall());
   compensation_ = summed("compensation", brake_.compensation());
   return names_.size() == 1 ? force : summed("force", writer_.reads(force));
 }
 
-// f' = f_stuck − ρ r − x Δu/h
+// f′ = f if stuck − factor · excess − x Δu/h
 ExpressionId SlipGroup::write_force(ExpressionId sliding) {
   const bool differs = forces_.front().differs;
   ExpressionId force = expression({RowOf::force}, rows(&MotorForce::sliding), now_);
@@ -173,8 +175,10 @@ ExpressionId SlipGroup::write_force(ExpressionId sliding) {
   if (names_.size() == 1 && !differs) return force;
   if (writer_.reads(force) == now_.slip) return force;
   const VariableId shares = local("force", "the component's force");
-  writer_.assign(writer_.law().output, shares, force,
-                 differs ? "f' = f − x Δu/h, x of the regime" : "f = f_stuck − ρ r", origins());
+  writer_.assign(
+      writer_.law().output, shares, force,
+      differs ? "f′ = f − x Δu/h, where the brake makes x of the damping" : "f = f if stuck − factor · excess",
+      origins());
   return writer_.read(shares);
 }
 
@@ -185,7 +189,7 @@ ExpressionId SlipGroup::summed(const std::string& what, VariableId vector) {
   return writer_.read(sum);
 }
 
-// F0 ← F0 + k0 δ; modes by their own drive δ. New forces come before old ones go.
+// F0 ← F0 + k0 δ; modes by their own drive δ. All new forces are computed before any old one is overwritten.
 void SlipGroup::write_update(VariableId) {
   std::vector<Statement>& update = writer_.law().update;
   Terms kept_terms = {kept(now_.change), nothing, nothing, nothing};
@@ -287,7 +291,7 @@ std::string SlipGroup::called(Quantity quantity) const {
   return "";
 }
 
-// One subject a component.
+// One subject for each component.
 Derivation SlipGroup::row_of(const Term& term, bool is_subtracted) const {
   const bool is_of_block = term.quantity.of == RowOf::elongation || term.quantity.of == RowOf::spring;
   std::vector<Subject> subjects;
@@ -300,8 +304,8 @@ Derivation SlipGroup::row_of(const Term& term, bool is_subtracted) const {
   return {ConstantRole::row, std::move(subjects)};
 }
 
-// A row that is the trial's but for the excess needs no products of its own, and less the whole excess it is the slip's
-// force itself. Variables of the output that a row of the update refers to are kept from one to the other.
+// If a row differs from the trial row only in its excess term, the trial value is used again; if that term takes off
+// the whole excess, the row is the slip's force itself. Locals of the output that a row of the update reads are kept.
 ExpressionId SlipGroup::expression(Quantity quantity, const std::vector<Row>& rows, Terms terms) {
   const bool in_output = quantity.of != RowOf::elongation && quantity.of != RowOf::spring;
   const bool like_trial = quantity.of != RowOf::trial && std::equal(rows.begin(), rows.end(), responses_.begin(),
@@ -327,7 +331,7 @@ ExpressionId SlipGroup::expression(Quantity quantity, const std::vector<Row>& ro
                         : sum;
 }
 
-// No product where all values are 0, 1 or −1.
+// If all values are 0, 1 or −1, nothing is multiplied.
 ExpressionId SlipGroup::term(const Term& term, std::vector<Real> values, ExpressionId variable, ExpressionId sum) {
   if (all_equal(values, 0)) return sum;
   if (all_equal(values, 1)) return writer_.plus(sum, variable);
@@ -346,9 +350,9 @@ ExpressionId SlipGroup::factors(const Term& term, const std::vector<Real>& value
                              row_of(term, is_subtracted));
   };
   switch (term.factor) {
-    case RowFor::change: return written("change", writer_.stiffness(), "for a change of position");
-    case RowFor::held: return written(blocks_[term.held_block].names.front(), "1", "for a force held there");
-    case RowFor::excess: return written("excess", "1", "for what the slip does not hold");
+    case RowFor::change: return written("change", writer_.stiffness(), "factor of the change of position");
+    case RowFor::held: return written(blocks_[term.held_block].names.front(), "1", "factor of the force held there");
+    case RowFor::excess: return written("excess", "1", "factor of the excess");
   }
   return nothing;
 }

@@ -14,8 +14,8 @@
 namespace dashpot::compiler {
 namespace {
 
-// What no parameter and no element is called in the emitted class: names of the law's own, of its tables, and what
-// `verify` calls the numbers without a name (verify/header_constants.hpp).
+// Names that no parameter and no element has in the emitted class: those of the law itself, of its tables, and the one
+// that `verify` gives to numbers without a name (verify/header_constants.hpp).
 constexpr std::string_view names_taken =
     "position force stored held_force step_stiffness springs_stiffness mesh_stiffness mesh_feedthrough mesh_viscosity "
     "feedthrough_damping viscosity half_viscosity wanted_brake steady_brake velocity_gain brake_left assured_damping "
@@ -82,9 +82,9 @@ class ProgramsBuilder {
     law_.velocity = writer_.scalar("velocity", writer_.velocity(), "estimate of u̇", Role::input);
     law_.force = writer_.scalar("force", writer_.force(), "motor's part m", Role::local);
     law_.stored = writer_.scalar("stored", "J", "energy in the springs", Role::local);
-    held_ = state("held_force", writer_.force(), "π, what springs hold");
+    held_ = state("held_force", writer_.force(), "force of the springs if the tool stays");
     if (tables_.sheds()) {
-      law_.share = state("sampled_share", "1", "of all forces, what is kept");
+      law_.share = state("sampled_share", "1", "share of all forces that is kept");
       law_.variables[law_.share].rest_value = 1;
     }
     for (Tunable& t : tables_.tunables) {
@@ -103,7 +103,7 @@ class ProgramsBuilder {
       if (part.kind == PartKind::relaxation) write_relaxation(part, given);
     const bool has_meshes = has(PartKind::mesh);
     step_stiffness_ = tuned(has_meshes ? "springs_stiffness" : "step_stiffness", writer_.stiffness(),
-                            "what springs answer in a sample");
+                            "stiffness of the springs over one sample");
     springs_.emplace(writer_, tables_, given, held_);
     springs_->tune(step_stiffness_);
     for_each_part([&](const BlockPart& part) {
@@ -116,19 +116,19 @@ class ProgramsBuilder {
     for_each_part([&](const BlockPart& part) {
       if (part.kind == PartKind::relaxation) viscosity_ = writer_.plus(viscosity_, number(part.damping));
     });
-    viscosity_ = viscosity_ == nothing
-                     ? none()
-                     : named("viscosity", writer_.damping(), "of the network at low frequency", viscosity_, "Z(0)");
+    viscosity_ = viscosity_ == nothing ? none()
+                                       : named("viscosity", writer_.damping(),
+                                               "Z(0), damping of the network at low frequency", viscosity_, "Z(0)");
   }
 
-  // z ← z + φ δ − α z with x = T k/b, α = x φ. Exact φ = (1 − e^(−x))/x; backward Euler φ = 1/(1 + x).
+  // z ← z + φ δ − α z with x = h k/B, α = x φ. Exact φ = (1 − e^(−x))/x; backward Euler φ = 1/(1 + x).
   void write_relaxation(BlockPart& part, std::vector<ExpressionId>& given) {
     const auto spring = static_cast<std::size_t>(part.spring);
     const std::string& name = tables_.spring_names[spring];
     part.share = static_cast<int>(given.size());
     part.loss = part.share + 1;
-    const char* const kept_means = "φ, of a displacement within a sample, what its spring has at the end";
-    const char* const loss_means = "α, what is lost in a sample";
+    const char* const kept_means = "φ, share of a displacement that is left in the spring at the end of the sample";
+    const char* const loss_means = "α, share of its elongation that is lost in a sample";
     if (const std::optional<FixedRelaxation>& fixed = tables_.fixed[spring]) {
       given.push_back(writer_.constant(writer_.unique(joined(name, "kept")), "1", kept_means, fixed->share,
                                        {ConstantRole::relaxation_share, OfTablePlace{spring}}));
@@ -142,7 +142,7 @@ class ProgramsBuilder {
     const ExpressionId k = number(tables_.springs[spring]), b = number(part.damping);
     ExpressionId ratio = writer_.clamp(writer_.divide(writer_.multiply(k, period()), b), largest());
     if (!(least(part.damping) > 0)) ratio = writer_.where(b, ratio, writer_.where(k, largest(), zero()));
-    const ExpressionId x = tuned_one("ratio", "a sample over the relaxation time", ratio, "x = T k/b");
+    const ExpressionId x = tuned_one("ratio", "x, the sample period over the relaxation time", ratio, "x = h k/B");
     const ExpressionId kept = tuned_one(
         "kept", kept_means, tables_.is_exact ? writer_.mean_decay(x) : writer_.divide(one(), writer_.add(one(), x)),
         tables_.is_exact ? "φ = (1 − e^(−x))/x" : "φ = 1/(1 + x)");
@@ -151,34 +151,37 @@ class ProgramsBuilder {
   }
 
   void write_meshes() {
-    const VariableId stiffness = tuned("mesh_stiffness", writer_.stiffness(), "what meshes answer in a sample"),
+    const VariableId stiffness =
+                         tuned("mesh_stiffness", writer_.stiffness(), "stiffness of the meshes over one sample"),
                      through = tuned("mesh_feedthrough", writer_.damping(), "b∞ of the meshes");
     springs_->tune_meshes(stiffness, through);
-    const VariableId both = tuned("step_stiffness", writer_.stiffness(), "what all answer in a sample");
+    const VariableId both =
+        tuned("step_stiffness", writer_.stiffness(), "stiffness of springs and meshes over one sample");
     writer_.assign(law_.tune, both, writer_.add(writer_.read(step_stiffness_), writer_.read(stiffness)), "");
     step_stiffness_ = both;
     feedthrough_ = writer_.plus(feedthrough_, writer_.read(through));
     if (!follows_viscosity()) return;
-    const VariableId viscosity = tuned("mesh_viscosity", writer_.damping(), "of the meshes at low frequency");
+    const VariableId viscosity = tuned("mesh_viscosity", writer_.damping(), "damping of the meshes at low frequency");
     springs_->tune_viscosity(viscosity);
     viscosity_ = writer_.plus(viscosity_, writer_.read(viscosity));
   }
 
   // b of what no slip changes, and the motor's b∞ − b.
   void write_brake_rule() {
-    feedthrough_ = named("feedthrough_damping", writer_.damping(), "b∞ of what no slip changes", feedthrough_, "b∞");
+    feedthrough_ =
+        named("feedthrough_damping", writer_.damping(), "b∞ of the parts that no slip changes", feedthrough_, "b∞");
     ExpressionId brake = followed();
     // The brake's limit is a constant, which the certificate may still change.
     if (tables_.brake.max_damping < largest_finite(law_.scalar))
-      brake = least_of(named("wanted_brake", writer_.damping(), "b, were there no limit", brake, ""), reach());
+      brake = least_of(named("wanted_brake", writer_.damping(), "b before the brake's limit", brake, ""), reach());
     // Where a surface can be left the motor compensates nothing, so that b is at most b∞.
     if (head_.contact.is_there) brake = least_of(brake, feedthrough_);
-    steady_brake_ = tuned("steady_brake", writer_.damping(), "b of what no slip changes");
+    steady_brake_ = tuned("steady_brake", writer_.damping(), "b of the parts that no slip changes");
     writer_.assign(law_.tune, steady_brake_, brake, "b follows " + tables_.brake.text);
     velocity_gain_ = tuned("velocity_gain", writer_.damping(), "b∞ − b");
     writer_.assign(law_.tune, velocity_gain_, writer_.subtract(feedthrough_, writer_.read(steady_brake_)), "b∞ − b");
     if (!head_.slip_rule.takes_part) return;
-    left_ = tuned("brake_left", writer_.damping(), "what the brake has left for slips");
+    left_ = tuned("brake_left", writer_.damping(), "damping that the brake has left for slips");
     writer_.assign(law_.tune, left_, writer_.subtract(reach(), writer_.read(steady_brake_)), "");
     if (tables_.brake.assured_share > 0 && !head_.contact.is_there) write_make_up();
   }
@@ -187,7 +190,7 @@ class ProgramsBuilder {
     const TunableBrake& rule = tables_.brake;
     const ExpressionId constant =
         rule.follows == BrakeFollows::constant || rule.follows == BrakeFollows::within_viscosity
-            ? writer_.constant("chosen_damping", writer_.damping(), "b at the defaults", rule.damping)
+            ? writer_.constant("chosen_damping", writer_.damping(), "b chosen for the default values", rule.damping)
             : nothing;
     switch (rule.follows) {
       case BrakeFollows::constant: return constant;
@@ -207,16 +210,16 @@ class ProgramsBuilder {
     return constant;
   }
 
-  // While the coil lags, the motor makes up no more than the share of b that is assured.
+  // While the coil lags, the motor adds no more damping than the share of b that is assured.
   void write_make_up() {
     const ExpressionId gain = writer_.read(velocity_gain_);
     const ExpressionId size = writer_.where(gain, gain, writer_.subtract(none(), gain));
     const ExpressionId share =
-        writer_.constant("assured_share", "1", "of b, what the motor may make up", tables_.brake.assured_share);
-    const ExpressionId assured =
-        named("assured_damping", writer_.damping(), "what of b is assured beside the estimate's part",
-              writer_.subtract(writer_.multiply(share, writer_.read(steady_brake_)), size), "");
-    make_up_ = named("make_up", writer_.damping(), "what the motor makes up for a coil on its way, at most",
+        writer_.constant("assured_share", "1", "share of b that the motor may add", tables_.brake.assured_share);
+    const ExpressionId assured = named(
+        "assured_damping", writer_.damping(), "damping that is assured, less what the motor's velocity gain needs",
+        writer_.subtract(writer_.multiply(share, writer_.read(steady_brake_)), size), "");
+    make_up_ = named("make_up", writer_.damping(), "largest damping that the motor adds while the coil lags",
                      writer_.where(assured, assured, none()), "");
   }
 
@@ -251,21 +254,21 @@ class ProgramsBuilder {
       const Tunable& t = tables_.tunables[term.tunable];
       ExpressionId part = writer_.read(t.value);
       if (term.share != 1)
-        part = writer_.multiply(constant_of(joined(n.name, "share"), "1", "of " + t.name, term.share,
+        part = writer_.multiply(constant_of(joined(n.name, "share"), "1", "factor of " + t.name, term.share,
                                             {index, static_cast<std::size_t>(&term - n.terms.data())}),
                                 part);
       sum = writer_.plus(sum, part);
     }
     if (n.terms.size() == 1 && n.base == 0)
-      return is_plain(sum) ? sum : named(writer_.unique(n.name), n.unit, "by its share", sum, "");
+      return is_plain(sum) ? sum : named(writer_.unique(n.name), n.unit, "the parameter times its factor", sum, "");
     if (!n.terms.empty() && n.base == 0)
-      return named(writer_.unique(joined(n.name, "sum")), n.unit, "of these together", sum, "");
+      return named(writer_.unique(joined(n.name, "sum")), n.unit, "sum over these elements", sum, "");
     const bool is_sum = !n.terms.empty();
-    const ExpressionId base =
-        constant_of(n.name, n.unit, is_sum ? "of what does not change" : "as in the network", n.base, {index, {}});
-    return is_sum
-               ? named(writer_.unique(joined(n.name, "sum")), n.unit, "of these together", writer_.add(base, sum), "")
-               : base;
+    const ExpressionId base = constant_of(
+        n.name, n.unit, is_sum ? "sum of the values that do not change" : "as in the network", n.base, {index, {}});
+    return is_sum ? named(writer_.unique(joined(n.name, "sum")), n.unit, "sum over these elements",
+                          writer_.add(base, sum), "")
+                  : base;
   }
 
   // Of that name, or with a number behind it; the same again for the same value.
@@ -288,18 +291,18 @@ class ProgramsBuilder {
     return writer_.where(writer_.subtract(one, other), other, one);
   }
   ExpressionId reach() {
-    return writer_.constant("max_damping", writer_.damping(), "what the brake can give", tables_.brake.max_damping,
-                            ConstantRole::brake_reach);
+    return writer_.constant("max_damping", writer_.damping(), "largest damping that the brake can give",
+                            tables_.brake.max_damping, ConstantRole::brake_reach);
   }
   ExpressionId period() {
-    return writer_.constant("period", "s", "T", law_.sample_period, ConstantRole::sample_period);
+    return writer_.constant("period", "s", "h, the sample period", law_.sample_period, ConstantRole::sample_period);
   }
-  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/T", head_.rate, ConstantRole::sample_rate); }
+  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/h", head_.rate, ConstantRole::sample_rate); }
   ExpressionId one() { return writer_.constant("one", "1", "one", 1, ConstantRole::plain_number); }
-  ExpressionId zero() { return writer_.constant("zero", "1", "nothing", 0, ConstantRole::zero); }
-  ExpressionId none() { return writer_.constant("no_damping", writer_.damping(), "none", 0, ConstantRole::zero); }
+  ExpressionId zero() { return writer_.constant("zero", "1", "zero", 0, ConstantRole::zero); }
+  ExpressionId none() { return writer_.constant("no_damping", writer_.damping(), "zero", 0, ConstantRole::zero); }
   ExpressionId largest() {
-    return writer_.constant("largest_ratio", "1", "beyond, nothing is left after a sample", largest_ratio);
+    return writer_.constant("largest_ratio", "1", "largest x: beyond it nothing is left after a sample", largest_ratio);
   }
 
   VariableId tuned(const std::string& name, const std::string& unit, const std::string& meaning) {
@@ -320,8 +323,9 @@ class ProgramsBuilder {
 
   // −1/g of a surface that nothing touches
   ExpressionId recovery() {
-    const ExpressionId all = named("surface_stiffness", writer_.stiffness(), "g, what the surface answers in a sample",
-                                   writer_.add(stiffness(), writer_.multiply(feedthrough_, rate())), "g");
+    const ExpressionId all =
+        named("surface_stiffness", writer_.stiffness(), "g, stiffness of the surface over one sample",
+              writer_.add(stiffness(), writer_.multiply(feedthrough_, rate())), "g");
     const ExpressionId minus_one = writer_.constant("minus_one", "1", "minus one", -1, ConstantRole::plain_number);
     return named("recovery_compliance", writer_.compliance(), "−1/g of a surface that nothing touches",
                  writer_.where(all, writer_.divide(minus_one, all), zero()), "−1/g");
@@ -335,7 +339,7 @@ class ProgramsBuilder {
   }
   ExpressionId product(ExpressionId first, VariableId second) { return writer_.multiply(first, writer_.read(second)); }
 
-  // m = g Δu + π + σ + (b∞ − b) u̇, of slips σ
+  // m = g Δu + π + σ + (b∞ − b) u̇, where π is held_force and σ the force of the slips
   void write_output() {
     law_.rest_position = state("last_position", writer_.length(), "u of the sample before");
     change_ = local("position_change", writer_.length(), "Δu since the sample before");
@@ -345,7 +349,7 @@ class ProgramsBuilder {
     ExpressionId sum = writer_.add(product(stiffness(), change_), writer_.read(held_));
     sum = springs_->brought_home(sum, writer_.read(law_.position));
     if (tables_.has_slips()) {
-      const VariableId slips = local("slips_force", writer_.force(), "σ, of all slips");
+      const VariableId slips = local("slips_force", writer_.force(), "σ, force of all slips");
       springs_->slips().write_step(slips, writer_.read(change_));
       sum = writer_.add(sum, writer_.read(slips));
     }
@@ -358,20 +362,21 @@ class ProgramsBuilder {
     writer_.assign(law_.keep, law_.last_brake, writer_.read(law_.brake), "");
   }
 
-  // Takes out of the force what slips leave to the brake, and adds to b and to the motor's gain what is theirs.
+  // Takes from the force the part that the brake makes behind slips, and adds what slips ask for to b and to the
+  // motor's velocity gain.
   ExpressionId left_to_brake(ExpressionId force, ExpressionId& brake, ExpressionId* gain) {
     if (!head_.slip_rule.takes_part) return force;
     const VariableId now = local("slips_feedthrough", writer_.stiffness(), "b∞/h behind slips, left to the brake"),
-                     damping = local("slips_brake", writer_.damping(), "b of what is behind slips");
+                     damping = local("slips_brake", writer_.damping(), "b of the parts behind slips");
     brake = writer_.add(brake, writer_.read(damping));
     const bool makes_up = gain != nullptr && make_up_ != nothing;
     const VariableId wanted =
-        makes_up ? local("slips_wanted", writer_.damping(), "b of what is behind slips, where the coil is going")
+        makes_up ? local("slips_wanted", writer_.damping(), "b of the parts behind slips that the coil is moving to")
                  : no_variable;
     springs_->slips().write_brake({now, damping, wanted}, law_.position, writer_.read(left_));
     if (makes_up) {
       const VariableId slips_gain =
-          local("slips_gain", writer_.damping(), "what the motor makes up for a coil on its way");
+          local("slips_gain", writer_.damping(), "damping that the motor adds while the coil lags");
       writer_.assign(law_.output, slips_gain,
                      writer_.clamp(writer_.subtract(writer_.read(wanted), writer_.read(damping)), make_up_), "");
       *gain = writer_.add(*gain, writer_.read(slips_gain));
@@ -390,25 +395,25 @@ class ProgramsBuilder {
       surface.write_change(recovery(), held_);
       sum = writer_.add(product(stiffness(), change_), writer_.read(held_));
     } else {
-      const VariableId pushed = local("pushed_force", writer_.force(), "of all slips and what is beside them");
+      const VariableId pushed = local("pushed_force", writer_.force(), "force of all slips and of what is beside them");
       springs_->slips().write_push(pushed, writer_.read(surface.approach()), change_);
       const ExpressionId through =
-          named("feedthrough_stiffness", writer_.stiffness(), "b∞/T", writer_.multiply(feedthrough_, rate()), "b∞/T");
+          named("feedthrough_stiffness", writer_.stiffness(), "b∞/h", writer_.multiply(feedthrough_, rate()), "b∞/h");
       sum = writer_.subtract(writer_.read(pushed), product(through, change_));
     }
     surface.write_surface();
     ExpressionId brake = damping();
     sum = left_to_brake(sum, brake, nullptr);
-    const VariableId opposing = local("opposing", writer_.force(), "f′, the network's force but for b∞ Δs/h");
+    const VariableId opposing = local("opposing", writer_.force(), "f′, the network's force without b∞ Δs/h");
     writer_.assign(law_.output, opposing, sum, "f′ = f − b∞ Δs/h");
     const ExpressionId driven = product(gain(), law_.velocity);
     const ExpressionId braked = writer_.add(writer_.read(opposing), product(brake, law_.velocity));
     surface.write_command(opposing, {writer_.add(braked, driven), writer_.add(writer_.read(opposing), driven), brake});
     place_ = surface.now();
     if (head_.static_spring == no_index && tables_.has_slips()) return;
-    place_ = local("surface_back", writer_.length(), "s, where what was shed has followed the tool");
+    place_ = local("surface_back", writer_.length(), "s, after the surface has followed a tool that left");
     writer_.assign(law_.output, place_, springs_->followed(writer_.read(surface.now()), writer_.read(surface.depth())),
-                   tables_.sheds() ? "a dent comes back with the tool" : "s");
+                   tables_.sheds() ? "a surface that shedding has pushed in comes back with the tool" : "s");
   }
 
   // Separate statements, so that every compiler creates the states in the same order.
@@ -423,7 +428,7 @@ class ProgramsBuilder {
     springs_->write_rest(writer_.read(law_.rest_position));
     ExpressionId resting = damping();
     if (head_.slip_rule.takes_part) {
-      const VariableId slips = state("resting_brake", writer_.damping(), "b of what is behind slips that hold");
+      const VariableId slips = state("resting_brake", writer_.damping(), "b of the parts behind slips that hold");
       springs_->slips().write_resting_brake(slips, writer_.read(left_));
       resting = writer_.add(resting, writer_.read(slips));
     }
@@ -433,7 +438,7 @@ class ProgramsBuilder {
   // What the certificate adds in every regime.
   ExpressionId with_added(ExpressionId brake) {
     if (tables_.brake.added == 0) return brake;
-    return writer_.add(brake, writer_.constant("steady_damping", writer_.damping(), "of what no slip changes",
+    return writer_.add(brake, writer_.constant("steady_damping", writer_.damping(), "added for passivity",
                                                tables_.brake.added, ConstantRole::steady_damping));
   }
 

@@ -31,14 +31,14 @@ bool TunedLoneSlip::is_held_rigid(std::size_t level) const {
 void TunedLoneSlip::tune(const std::vector<ExpressionId>& stiffness, ExpressionId yield) {
   yield_ = yield;
   for (std::size_t i = 0; i < path_.size(); ++i)
-    levels_[i].stiffness =
-        numbers_.tuned(joined(block_name(i), "answer"), writer_.stiffness(), "g of the block", stiffness[i]);
+    levels_[i].stiffness = numbers_.tuned(joined(block_name(i), "answer"), writer_.stiffness(),
+                                          "g, stiffness of the block over one sample", stiffness[i]);
   tune_held();
   tune_given();
 }
 
-// From the slip to the port: in parallel stiffnesses add up, in series their inverses do. Of what comes before the
-// first in series nothing is asked.
+// From the slip to the port: in parallel stiffnesses add up, in series their inverses do. Levels before the first
+// series need no value.
 void TunedLoneSlip::tune_held() {
   const auto first = static_cast<std::size_t>(
       std::find_if(path_.begin(), path_.end(), [](const Level& l) { return l.is_series; }) - path_.begin());
@@ -51,14 +51,16 @@ void TunedLoneSlip::tune_held() {
     const std::string name = joined(block_name(i), "with_what_follows");
     const ExpressionId both = writer_.add(level.stiffness, levels_[i + 1].held);
     if (path_[i].is_series) {
-      level.inverse = numbers_.tuned(joined(name, "gives"), writer_.compliance(), "1/Σ g of the block and what follows",
-                                     writer_.divide(numbers_.one(), both));
+      level.inverse = numbers_.tuned(joined(name, "gives"), writer_.compliance(),
+                                     "1/Σ g of the block and of all beyond it", writer_.divide(numbers_.one(), both));
       const ExpressionId product = writer_.multiply(level.stiffness, levels_[i + 1].held);
       if (i > first)
-        level.held = numbers_.tuned(joined(name, "answer"), writer_.stiffness(), "g while the slip holds",
+        level.held = numbers_.tuned(joined(name, "answer"), writer_.stiffness(),
+                                    "g of the block and of all beyond it, while the slip holds",
                                     writer_.multiply(product, level.inverse));
     } else if (i > first) {
-      level.held = numbers_.tuned(joined(name, "answer"), writer_.stiffness(), "g while the slip holds", both);
+      level.held = numbers_.tuned(joined(name, "answer"), writer_.stiffness(),
+                                  "g of the block and of all beyond it, while the slip holds", both);
     }
   }
 }
@@ -110,7 +112,9 @@ ExpressionId TunedLoneSlip::held_force(std::size_t level) {
   ExpressionId sum = times(levels_[level].stiffness, further);
   if (own != nothing) sum = writer_.plus(sum, times(levels_[level + 1].held, own));
   const ExpressionId found = times(levels_[level].inverse, sum);
-  return found == nothing ? found : local(joined(block_name(level), "held_behind"), writer_.force(), found, "π");
+  return found == nothing ? found
+                          : local(joined(block_name(level), "held_behind"), writer_.force(), found,
+                                  "force of the block and of all beyond it if they keep their length");
 }
 
 ExpressionId TunedLoneSlip::block_force(std::size_t level, ExpressionId stretched) {
@@ -122,7 +126,7 @@ ExpressionId TunedLoneSlip::write_held(ExpressionId change, std::vector<Expressi
   ExpressionId here = change, force = nothing;
   for (std::size_t i = 0; i < path_.size(); ++i) {
     if (!path_[i].is_series) {
-      // Beside a slip that holds nothing is stretched, and it holds what its block does not.
+      // A block beside a slip that holds is not stretched; the slip's force is the total less that of the block.
       if (force != nothing) force = minus(force, pi(i));
       else stretched[i] = here;
     } else if (is_held_rigid(i + 1)) {
@@ -133,8 +137,9 @@ ExpressionId TunedLoneSlip::write_held(ExpressionId change, std::vector<Expressi
       ExpressionId sum = times(levels_[i].stiffness, here);
       if (const ExpressionId difference = minus(pi(i), further); difference != nothing)
         sum = writer_.add(sum, difference);
-      const ExpressionId next = local(joined(block_name(i), "behind_if_stuck"), writer_.length(),
-                                      writer_.multiply(levels_[i].inverse, sum), "δ of what follows, if the slip held");
+      const ExpressionId next =
+          local(joined(block_name(i), "behind_if_stuck"), writer_.length(), writer_.multiply(levels_[i].inverse, sum),
+                "δ of all beyond the block, if the slip held");
       stretched[i] = writer_.subtract(here, next);
       here = next;
     }
@@ -145,11 +150,11 @@ ExpressionId TunedLoneSlip::write_held(ExpressionId change, std::vector<Expressi
 ExpressionId TunedLoneSlip::write_step(VariableId target, ExpressionId change) {
   std::vector<ExpressionId> stretched(path_.size(), nothing);
   const ExpressionId trial =
-      local(joined(name_, "trial"), writer_.force(), write_held(change, stretched), "t, the slip's force if it held");
+      local(joined(name_, "trial"), writer_.force(), write_held(change, stretched), "force of the slip if it held");
   const ExpressionId slip =
-      local(joined(name_, "force"), writer_.force(), writer_.clamp(trial, yield_), "s = clamp(t, ±Y)");
+      local(joined(name_, "force"), writer_.force(), writer_.clamp(trial, yield_), "clamp(trial, ±Y)");
   const ExpressionId excess =
-      local(joined(name_, "excess"), writer_.force(), writer_.subtract(trial, slip), "r = t − s");
+      local(joined(name_, "excess"), writer_.force(), writer_.subtract(trial, slip), "excess = trial − force");
   for (std::size_t i = 0; i < path_.size(); ++i) {
     if (levels_[i].given != nothing) {
       const ExpressionId more = writer_.multiply(levels_[i].given, excess);
@@ -160,11 +165,11 @@ ExpressionId TunedLoneSlip::write_step(VariableId target, ExpressionId change) {
         numbers_.local(joined(block_name(i), "stretched"), writer_.length(), stretched[i], "δ of the block");
     stretched[i] = writer_.read(levels_[i].stretched);
   }
-  // From the port on to where nothing stands beside any more.
+  // The blocks in parallel at the port, up to the first level in series.
   ExpressionId sum = nothing;
   std::size_t i = 0;
   for (; !path_[i].is_series; ++i) sum = writer_.plus(sum, block_force(i, change));
-  // What is in series with the slip alone holds what the slip does.
+  // A block in series with the slip alone has the slip's force.
   const ExpressionId inner = i + 1 == path_.size() ? slip : block_force(i, stretched[i]);
   numbers_.assign(target, writer_.plus(sum, inner), "f");
   return writer_.where(excess, excess, writer_.subtract(numbers_.zero(), excess));

@@ -6,7 +6,7 @@ namespace dashpot::compiler {
 
 TunedMesh::TunedMesh(TunedNumbers& numbers, const BlockPart& part, const std::vector<MeshEdge>& edges)
     : numbers_(numbers), writer_(numbers.writer()), part_(part), edges_(edges) {
-  // A node is pushed by its own springs, and by those of nodes before it that it is joined with.
+  // A node is pushed by its own springs, and by those of earlier nodes that it is joined to.
   const auto count = static_cast<std::size_t>(part.node_count);
   std::vector<bool> is_pushed(count, false);
   std::vector<std::vector<bool>> is_joined(count, std::vector<bool>(count, false));
@@ -26,7 +26,7 @@ TunedMesh::TunedMesh(TunedNumbers& numbers, const BlockPart& part, const std::ve
   const std::string unit = writer_.force();
   for (std::size_t i = 0; i < count; ++i)
     push_.push_back(is_pushed[i] ? numbers_.scalar(joined(node_name(static_cast<int>(i)), "push"), unit,
-                                                   "of springs on an inner node, and what comes to it", Role::state)
+                                                   "force of the springs on an inner node", Role::state)
                                  : no_variable);
 }
 
@@ -64,7 +64,7 @@ ExpressionId TunedMesh::inverse(ExpressionId pivot, const std::string& name) {
   return writer_.where(is_finite, quotient, numbers_.zero());
 }
 
-// From star to mesh, node after node: g_jk += g_ij g_ik / Σ g_i.
+// Eliminates node after node; each star becomes a mesh: g_jk += g_ij g_ik / Σ g_i.
 TunedMesh::Shares TunedMesh::eliminated(const Row& of_edges, const std::string& prefix, bool is_kept) {
   Conductances all = joined_up(of_edges);
   const auto count = static_cast<std::size_t>(part_.node_count);
@@ -157,7 +157,7 @@ ExpressionId TunedMesh::viscosity(const std::vector<ExpressionId>& values) {
   return writer_.where(found, found, numbers_.zero());
 }
 
-// a b/p to first order. Where p has no lead neither a nor b has one.
+// Adds a b/p to `sum`, to first order. If p is 0 in lowest order, so are a and b.
 void TunedMesh::bridge(FirstOrder a, FirstOrder b, FirstOrder p, FirstOrder& sum) {
   const auto is_none = [](FirstOrder x) { return x.lead == nothing && x.next == nothing; };
   if (is_none(a) || is_none(b)) return;
@@ -217,7 +217,7 @@ std::vector<ExpressionId> TunedMesh::spread(const Shares& shares, const Row& pus
   return elongations;
 }
 
-// A spring's force pulls its ends together; what a node is pushed by goes on to those after it.
+// A spring's force pulls its ends together; the push on a node is passed on to the nodes after it.
 ExpressionId TunedMesh::held(const std::vector<ExpressionId>& forces) {
   Row pushes(push_.size());
   ExpressionId force = nothing, rest = nothing;

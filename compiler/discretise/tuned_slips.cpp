@@ -31,7 +31,7 @@ void TunedSlips::declare() {
                            [&](const char* what, const std::string& unit, const char* meaning, Role role) {
                              return numbers_.scalar(joined(tables_.slip_names[k], what), unit, meaning, role);
                            });
-  if (coil_lags()) root_ = numbers_.scalar("slips_brake_root", "1", "√b of what is behind slips", Role::state);
+  if (coil_lags()) root_ = numbers_.scalar("slips_brake_root", "1", "√b of the parts behind slips", Role::state);
 }
 
 void TunedSlips::declare(const TunableCoupling& table) {
@@ -61,8 +61,8 @@ void TunedSlips::declare(const TunableCoupling& table) {
     const std::size_t slip = tree.first_slip + place(node.place);
     coupling.slips.push_back(tables_.slip_elements[slip]);
     if (!rule_.takes_part) continue;
-    signs_[slip] =
-        numbers_.scalar(joined(tables_.slip_names[slip], "sign"), "1", "side to which the slip gives way", Role::local);
+    signs_[slip] = numbers_.scalar(joined(tables_.slip_names[slip], "sign"), "1",
+                                   "direction in which the slip slides, 0 while it holds", Role::local);
     coupling.sign.push_back(signs_[slip]);
   }
   trees_.push_back(std::move(tree));
@@ -85,7 +85,8 @@ void TunedSlips::declare(const TunableGraph& table) {
     network.moved.push_back(numbers_.scalar(joined(network.name, fmt::format("end_{}_moved", i + 1)), writer_.length(),
                                             "displacement of an inner end", Role::local));
   const auto add_sign = [&](const std::string& name) {
-    const VariableId sign = numbers_.scalar(joined(name, "sign"), "1", "side to which the slip gives way", Role::local);
+    const VariableId sign =
+        numbers_.scalar(joined(name, "sign"), "1", "direction in which the slip slides, 0 while it holds", Role::local);
     network.sign.push_back(sign);
     network.last_sign.push_back(writer_.kept(sign));
     return sign;
@@ -151,10 +152,11 @@ void TunedSlips::tune_end(Tree& tree, std::size_t k, std::vector<ExpressionId>& 
   if (sum == nothing || (is_series && is_flat)) return;
   if (is_series) sum = writer_.where(is_stiff, writer_.divide(numbers_.one(), inverse), numbers_.zero());
   TunedNode& tuned = tree.coupling.tuned[k];
-  tuned.stiffness = numbers_.told(joined(name, "answer"), writer_.stiffness(), "g of a part whose slips give way", sum);
+  tuned.stiffness =
+      numbers_.told(joined(name, "answer"), writer_.stiffness(), "g of the part while its slips give way", sum);
   stiffness[k] = writer_.read(tuned.stiffness);
   tuned.compliance =
-      numbers_.told(joined(name, "give"), writer_.compliance(), "1/g of it",
+      numbers_.told(joined(name, "give"), writer_.compliance(), "1/g of that part",
                     writer_.where(stiffness[k], writer_.divide(numbers_.one(), stiffness[k]), numbers_.zero()));
   compliance[k] = writer_.read(tuned.compliance);
 }
@@ -168,7 +170,7 @@ ExpressionId TunedSlips::yield_of(std::size_t slip, const std::vector<Expression
     weakest = weakest == nothing ? cut : least_of(cut, weakest);
   }
   const ExpressionId least = numbers_.constant(joined(tables_.slip_names[slip], "least_yield"), writer_.force(),
-                                               "Y, no less whatever the parameters are", yield.least,
+                                               "smallest Y, whatever the parameters are", yield.least,
                                                {ConstantRole::least_yield, OfTablePlace{slip}});
   return largest_of(weakest, least);
 }
@@ -186,13 +188,13 @@ std::optional<double> TunedSlips::constant_in(ExpressionId value) const {
   return writer_.law().coefficients[e.coefficient].values.front();
 }
 
-// The curves of slips would lose their digits next to parts without stiffness. A block whose g is raised acts as if it
-// had a little more damping.
+// Next to a part without stiffness the curves of slips would lose their digits, so g is kept above a small bound. A
+// block whose g is raised acts as if it had a little more damping.
 ExpressionId TunedSlips::bounded_stiffness(std::size_t block) {
   const std::string& name = blocks_[block].name;
   const ExpressionId g = blocks_[block].stiffness;
   const ExpressionId least =
-      numbers_.constant(joined(name, "least_answer"), writer_.stiffness(), "g, no less whatever the parameters are",
+      numbers_.constant(joined(name, "least_answer"), writer_.stiffness(), "smallest g, whatever the parameters are",
                         tables_.blocks[block].least_stiffness, {ConstantRole::least_stiffness, OfTablePlace{block}});
   return g == nothing ? least : largest_of(g, least);
 }
@@ -238,7 +240,7 @@ void TunedSlips::write_step(VariableId force, ExpressionId change) {
   ExpressionId sum = nothing;
   const auto part = [&](const std::string& name) {
     if (is_alone) return force;
-    const VariableId own = numbers_.scalar(joined(name, "force"), writer_.force(), "of these slips", Role::local);
+    const VariableId own = numbers_.scalar(joined(name, "force"), writer_.force(), "force of these slips", Role::local);
     sum = writer_.plus(sum, writer_.read(own));
     return own;
   };
@@ -246,7 +248,7 @@ void TunedSlips::write_step(VariableId force, ExpressionId change) {
     slides_[lone.slip] = lone.step.write_step(part(joined(tables_.slip_names[lone.slip], "part")), change);
   for (Tree& tree : trees_) write_tree(tree, part(tree.coupling.name), change, no_variable);
   for (Graph& graph : graphs_) write_graph(graph, part(graph.network.name), change, no_variable);
-  if (!is_alone) numbers_.assign(force, sum, "σ of all slips");
+  if (!is_alone) numbers_.assign(force, sum, "σ, force of all slips");
 }
 
 void TunedSlips::write_push(VariableId force, ExpressionId approach, VariableId surface_change) {
@@ -257,7 +259,7 @@ void TunedSlips::write_push(VariableId force, ExpressionId approach, VariableId 
 
 void TunedSlips::write_tree(Tree& tree, VariableId force, ExpressionId change, VariableId surface_change) {
   tree.coupling.surface = surface_change;
-  numbers_.assign(force, change, "f and every block's δ, by curves, signs and numbers");
+  numbers_.assign(force, change, "slip_tree: f, and δ of every block");
   numbers_.last().step = SolveTree{writer_.law().couplings.add(tree.coupling)};
 }
 
@@ -281,16 +283,16 @@ void TunedSlips::write_graph(Graph& graph, VariableId force, ExpressionId change
     }
     const std::string end = i < place(network.node_count) ? fmt::format("end_{}_held", i + 1) : "tool_held";
     network.held.push_back(
-        numbers_.scalar(joined(network.name, end), writer_.force(), "force at the end if it stayed", Role::local));
+        numbers_.scalar(joined(network.name, end), writer_.force(), "force at the end if no end moves", Role::local));
     numbers_.assign(network.held.back(), held[i], "");
   }
-  numbers_.assign(force, change, "f and where every end goes, by patterns of slips");
+  numbers_.assign(force, change, "slip_network: f, and how far every end moves");
   numbers_.last().step = SolveNetwork{writer_.law().networks.add(network)};
 }
 
 ExpressionId TunedSlips::damping_of(const std::vector<ExpressionId>& slides, const std::string& prefix) {
   std::vector<ExpressionId> damping;
-  for (std::size_t i = 0; i < blocks_.size(); ++i)  // of block 0 the brake has been told already
+  for (std::size_t i = 0; i < blocks_.size(); ++i)  // the brake's command has the dampers of block 0 already
     damping.push_back(i == 0 ? ExpressionId(nothing) : blocks_[i].feedthrough);
   ExpressionId sum = nothing;
   for (const Lone& lone : lone_) {
@@ -324,17 +326,19 @@ void TunedSlips::write_brake(const Brake& found, VariableId position, Expression
     if (slides[k] == nothing) slides[k] = writer_.multiply(writer_.read(signs_[k]), writer_.read(signs_[k]));
   const ExpressionId now = numbers_.named("slips_damping_now", writer_.damping(),
                                           within(left, "regime_damping_now", damping_of(slides, "now")));
-  const ExpressionId rate = writer_.constant("rate", "Hz", "1/T", tables_.head.rate, ConstantRole::sample_rate);
-  numbers_.assign(found.now, writer_.multiply(now, rate), "b∞/T of the slips' regime");
+  const ExpressionId rate = writer_.constant("rate", "Hz", "1/h", tables_.head.rate, ConstantRole::sample_rate);
+  numbers_.assign(found.now, writer_.multiply(now, rate), "b∞/h of the slips that give way now");
   ExpressionId wanted = now;
   if (!memories_.empty()) {
     for (std::size_t k = 0; k < slides.size(); ++k) slides[k] = memories_[k].write_output(slides[k], position);
     wanted = numbers_.named("slips_damping_wanted", writer_.damping(),
                             within(left, "regime_damping_wanted", damping_of(slides, "wanted")));
   }
-  if (found.wanted != no_variable) numbers_.assign(found.wanted, wanted, "b of the command's regime");
-  if (!coil_lags()) return numbers_.assign(found.damping, wanted, "b of the command's regime");
-  const ExpressionId share = numbers_.constant("coil_share", "1", "κ of a sample", rule_.coil_share);
+  if (found.wanted != no_variable)
+    numbers_.assign(found.wanted, wanted, "b for the slips that the command counts as sliding");
+  if (!coil_lags()) return numbers_.assign(found.damping, wanted, "b for the slips that the command counts as sliding");
+  const ExpressionId share = numbers_.constant(
+      "coil_share", "1", "κ, share of the missing √b that the coil makes up in a sample", rule_.coil_share);
   root_now_ = numbers_.scalar("slips_brake_root_now", "1", "√b", Role::local);
   const ExpressionId way = writer_.subtract(writer_.square_root(wanted), writer_.read(root_));
   numbers_.assign(root_now_, writer_.add(writer_.read(root_), writer_.multiply(share, way)),
@@ -373,7 +377,7 @@ void TunedSlips::keep() {
   if (root_ != nothing) numbers_.assign(root_, writer_.read(writer_.kept(root_now_)), "");
 }
 
-// b as far as the brake has it.
+// The damping, or what the brake has left if that is less.
 ExpressionId TunedSlips::within(ExpressionId left, const std::string& name, ExpressionId damping) {
   if (constant_in(damping) == 0.0) return damping;
   return least_of(numbers_.named(name, writer_.damping(), damping), left);

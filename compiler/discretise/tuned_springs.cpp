@@ -32,42 +32,43 @@ void TunedSprings::declare() {
   const bool some_change = std::any_of(springs_.begin(), springs_.end(), is_tuned);
   for (SpringNames& spring : springs_) {
     spring.changes = is_tuned(spring) || (some_change && &spring == static_spring());
-    spring.elongation = state(spring, "elongation", writer_.length(), "z");
+    spring.elongation = state(spring, "elongation", writer_.length(), "z, elongation of the spring");
     if (is_tuned(spring))
       spring.carried =
           numbers_.scalar(joined(spring.name, "carried_stiffness"), writer_.stiffness(),
-                          "k for which the force is what it is", is_behind_map() ? Role::state : Role::tuned);
+                          "k after the last change of parameters", is_behind_map() ? Role::state : Role::tuned);
     if (is_behind_map() && spring.changes)
-      spring.sampled = state(spring, "sampled_elongation", writer_.length(), "z of the last sample");
+      spring.sampled = state(spring, "sampled_elongation", writer_.length(), "z at the last sample");
   }
   declare_blocks();
   each_part([&](const BlockPart& part) {
     if (part.kind == PartKind::mesh) meshes_.emplace(&part, TunedMesh(numbers_, part, tables_.edges));
     each_spring(part, [&](SpringNames& spring) {
       if (keeps_offset(part) && (spring.changes || (sheds() && !has_contact())))
-        spring.offset = state(spring, "offset", writer_.length(), "r, how far its rest length is from home");
+        spring.offset = state(spring, "offset", writer_.length(), "r, shift of the spring's rest length");
       if (spring.offset != nothing && spring.sampled != nothing)
-        spring.sampled_offset = state(spring, "sampled_offset", writer_.length(), "r of the last sample");
+        spring.sampled_offset = state(spring, "sampled_offset", writer_.length(), "r at the last sample");
     });
   });
   if (some_change || has_offsets())
-    tank_ = numbers_.scalar("tank", "J", "T, set free by changes of parameters", Role::state);
+    tank_ = numbers_.scalar("tank", "J", "energy set free by changes of parameters, not yet spent", Role::state);
   if (has_offsets())
     for (int i = 0; i < head_.hold.samples; ++i)
       owed_.push_back(numbers_.scalar(i == 0 ? "owed" : "owed_before", writer_.force(),
-                                      "of springs whose offsets went home, that the motor still holds", Role::state));
+                                      "force that the motor still holds though r of a spring has moved", Role::state));
   if (is_behind_map() && some_change)
-    sampled_tank_ = numbers_.scalar("sampled_tank", "J", "T of the last sample", Role::state);
+    sampled_tank_ = numbers_.scalar("sampled_tank", "J", "tank at the last sample", Role::state);
   if (is_behind_map() && static_spring() != nullptr && static_spring()->offset != nothing)
     stiffest_share_ =
-        numbers_.scalar("stiffest_share", "1", "of the static spring: its largest k over this one", Role::tuned);
+        numbers_.scalar("stiffest_share", "1", "largest k of the static spring over its k now", Role::tuned);
   if (!sheds()) return;
   if (has_offsets() && !has_contact())
-    shed_ = numbers_.scalar("shed", "1", "1 where an offset is left of forces that were shed", Role::state);
-  if (comes_back()) dent_ = numbers_.scalar("dent", writer_.length(), "of the surface, by what was shed", Role::state);
+    shed_ = numbers_.scalar("shed", "1", "1 while shedding has left some r that is not 0", Role::state);
+  if (comes_back())
+    dent_ = numbers_.scalar("dent", writer_.length(), "how far shedding has pushed the surface in", Role::state);
 }
 
-// Behind slips what blocks hold is found once a sample, and remembered for the solvers.
+// The held forces of blocks behind slips are computed once a sample and stored for the solvers.
 void TunedSprings::declare_blocks() {
   for (std::size_t i = 0; i < tables_.blocks.size(); ++i) {
     blocks_.push_back({tables_.block_names[i]});
@@ -75,8 +76,8 @@ void TunedSprings::declare_blocks() {
     each_part_of(i, [&](const BlockPart& part) { has_springs |= part.kind != PartKind::damper; });
     if (i == 0) blocks_[i].held = held_force_;
     else if (has_springs)
-      blocks_[i].held =
-          numbers_.scalar(joined(blocks_[i].name, "held"), writer_.force(), "π, what the block holds", Role::state);
+      blocks_[i].held = numbers_.scalar(joined(blocks_[i].name, "held"), writer_.force(),
+                                        "force if the block keeps its length", Role::state);
   }
   slips_.declare();
 }
@@ -94,8 +95,8 @@ TunedSprings::SpringNames* TunedSprings::static_spring() {
   return head_.static_spring == no_index ? nullptr : &springs_[static_cast<std::size_t>(head_.static_spring)];
 }
 
-// Whether a spring keeps an offset: only between tool and ground, or in a mesh. Elsewhere what is next to it gives
-// way.
+// Whether a spring keeps an offset: only one between tool and ground or in a mesh does. Elsewhere its neighbour moves
+// instead.
 bool TunedSprings::keeps_offset(const BlockPart& part) {
   return part.kind == PartKind::mesh || (part.kind == PartKind::spring && !part.is_loose);
 }
@@ -109,7 +110,7 @@ void TunedSprings::tune(VariableId step_stiffness) {
   each_part_of(0, [&](const BlockPart& part) {
     if (part.kind == PartKind::spring || part.kind == PartKind::relaxation) sum = writer_.plus(sum, answer_of(part));
   });
-  assign(step_stiffness, or_zero(sum), "g of what joins tool and ground");
+  assign(step_stiffness, or_zero(sum), "g of all that joins tool and ground without a slip");
   if (!tables_.has_slips()) return;
   for (std::size_t i = has_contact() ? 0 : 1; i < blocks_.size(); ++i) tune_block(i);
   slips_.tune(given_);
@@ -126,7 +127,7 @@ ExpressionId TunedSprings::answer_of(const BlockPart& part) {
   return stiffness_of(part);
 }
 
-// g and b∞ of a block that slips are solved with; of block 0 the brake has been told already.
+// g and b∞ of a block that is solved together with slips; the brake's command has the dampers of block 0 already.
 void TunedSprings::tune_block(std::size_t index) {
   TunedBlock& block = blocks_[index];
   ExpressionId through = nothing;
@@ -151,7 +152,7 @@ void TunedSprings::carry_over() {
   find_held();
 }
 
-// Behind a static curve several changes between two samples are one, from what there was before.
+// Behind a static curve several changes between two samples count as one, from the state before the first.
 void TunedSprings::begin_change() {
   for (SpringNames& spring : springs_) {
     if (spring.sampled != nothing) assign(spring.elongation, read(spring.sampled), "");
@@ -169,7 +170,7 @@ void TunedSprings::keep_sampled() {
   if (sampled_tank_ != nothing) assign(sampled_tank_, read(tank_), "");
 }
 
-// The numbers of a mesh's edges.
+// Stiffness or damping of a mesh's edges.
 std::vector<ExpressionId> TunedSprings::given(const BlockPart& part) const {
   std::vector<ExpressionId> all;
   for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
@@ -180,7 +181,7 @@ std::vector<ExpressionId> TunedSprings::given(const BlockPart& part) const {
   return all;
 }
 
-// Each force stays as it is as far as energy allows that springs and tank already hold.
+// Each force stays as it is, as far as the energy that springs and tank already hold allows.
 void TunedSprings::carry_forces_over() {
   for (SpringNames& spring : springs_)
     if (spring.changes) is_behind_map() ? keep_force(spring) : keep_what_it_can(spring);
@@ -209,7 +210,7 @@ void TunedSprings::keep_what_it_can(SpringNames& spring) {
   const ExpressionId softer = writer_.multiply(f, writer_.square_root(writer_.divide(next, k)));
   spring.kept = local(joined(spring.name, "force_kept"), writer_.force(),
                       writer_.where(writer_.subtract(k, next), writer_.where(next, softer, zero()), f),
-                      "F, or F √(k′/k) of a softer spring");
+                      "F, or F √(k′/k) where the new stiffness k′ is lower");
   const ExpressionId now = local_of(joined(spring.name, "energy_before"), "J", energy(f, k));
   spring.wanted_energy = local_of(joined(spring.name, "energy_after"), "J", energy(f, next));
   const ExpressionId freed =
@@ -217,7 +218,7 @@ void TunedSprings::keep_what_it_can(SpringNames& spring) {
   assign(tank_, writer_.add(writer_.add(read(tank_), freed), writer_.where(next, zero(), now)), "");
 }
 
-// Raises the kept force towards F as far as the tank pays for it.
+// Raises the kept force towards F as far as the energy in the tank allows.
 void TunedSprings::pay_for_the_rest(SpringNames& spring) {
   if (spring.carried == nothing) return;
   const ExpressionId next = spring.stiffness, f = read(spring.force), kept = read(spring.kept), tank = read(tank_);
@@ -232,9 +233,9 @@ void TunedSprings::pay_for_the_rest(SpringNames& spring) {
                writer_.where(next, size_of(writer_.subtract(kept, f), joined(spring.name, "force_short")), zero()));
   const ExpressionId unpaid = local_of(joined(spring.name, "energy_unpaid"), "J", writer_.subtract(cost, tank));
   const ExpressionId signed_most = writer_.where(f, most, writer_.multiply(minus_one(), most));
-  const VariableId result =
-      local(joined(spring.name, "force_after"), writer_.force(),
-            writer_.where(differs, writer_.where(unpaid, signed_most, f), kept), "F, as far as the tank pays");
+  const VariableId result = local(joined(spring.name, "force_after"), writer_.force(),
+                                  writer_.where(differs, writer_.where(unpaid, signed_most, f), kept),
+                                  "F as before, as far as the energy in the tank allows");
   assign(tank_, writer_.where(differs, writer_.where(unpaid, zero(), writer_.subtract(tank, cost)), read(tank_)), "");
   spring.kept = result;
 }
@@ -250,7 +251,7 @@ void TunedSprings::keep_force(SpringNames& spring) {
   assign(tank_, writer_.where(writer_.subtract(next, k), writer_.add(read(tank_), freed), read(tank_)), "");
 }
 
-// A softer spring keeps its force if the tank pays for all of it, else its elongation.
+// A softer spring keeps its force if the tank has enough energy for all of it, else its elongation.
 void TunedSprings::soften(SpringNames& spring) {
   if (spring.carried == nothing) return;
   const ExpressionId k = before(spring), next = spring.stiffness, f = read(spring.force), tank = read(tank_);
@@ -272,7 +273,7 @@ void TunedSprings::soften(SpringNames& spring) {
       writer_.where(left, writer_.divide(writer_.multiply(softer, writer_.multiply(left, left)), two()), zero()));
   spring.kept = local(joined(spring.name, "force_kept"), writer_.force(),
                       writer_.where(softer, writer_.where(unpaid, writer_.multiply(next, elongation), f), f),
-                      "F where the tank pays, else F k′/k of a softer spring");
+                      "F as before if the tank has the energy for it, else F k′/k");
   const ExpressionId paid = writer_.where(unpaid, writer_.add(tank, freed), writer_.subtract(tank, cost));
   assign(tank_, writer_.where(softer, paid, tank), "");
 }
@@ -280,16 +281,17 @@ void TunedSprings::soften(SpringNames& spring) {
 void TunedSprings::find_stiffest_share() {
   if (stiffest_share_ == nothing) return;
   const ExpressionId k = static_spring()->stiffness;
-  const ExpressionId most =
-      numbers_.constant("largest_stiffness", writer_.stiffness(), "of the static spring", head_.map.largest_stiffness);
+  const ExpressionId most = numbers_.constant("largest_stiffness", writer_.stiffness(),
+                                              "largest k of the static spring", head_.map.largest_stiffness);
   assign(stiffest_share_, writer_.where(k, writer_.divide(most, k), zero()), "");
 }
 
 ExpressionId TunedSprings::largest_change() {
-  return numbers_.constant("largest_change", writer_.length(), "of w while a force is held", head_.map.largest_change);
+  return numbers_.constant("largest_change", writer_.length(), "largest change of w while a force is held",
+                           head_.map.largest_change);
 }
 
-// The spring between tool and ground makes up for what others could not keep.
+// The spring between tool and ground takes over the force that others could not keep.
 void TunedSprings::make_up_for_others() {
   SpringNames* spring = static_spring();
   if (spring == nullptr || !spring->changes) return;
@@ -313,7 +315,7 @@ void TunedSprings::make_up_for_others() {
       local_of("is_missing", writer_.force(), writer_.where(k, size_of(missing, "missing"), zero()));
   const ExpressionId rest = local_of("energy_left", "J", writer_.subtract(all, energy(within, k)));
   spring->kept = local(joined(spring->name, "force_made_up"), writer_.force(), writer_.where(is_missing, within, kept),
-                       "F of the static spring");
+                       "F of the static spring, with what the others have lost");
   assign(tank_, writer_.where(is_missing, writer_.where(rest, rest, zero()), read(tank_)), "");
 }
 
@@ -334,7 +336,7 @@ void TunedSprings::move_end(SpringNames& spring) {
   assign(spring.elongation, writer_.where(changed, there, read(spring.elongation)), "z = F/k");
 }
 
-// r = z − F/k; what is no more than rounding of z is none.
+// r = z − F/k, or 0 where that is no more than a rounding error of z.
 void TunedSprings::move_offset(SpringNames& spring) {
   const ExpressionId changed = change_of(spring), z = read(spring.elongation);
   const ExpressionId offset =
@@ -356,8 +358,8 @@ void TunedSprings::tune_meshes(VariableId stiffness, VariableId feedthrough) {
     answer = writer_.plus(answer, writer_.subtract(mesh.stiffness(), writer_.multiply(mesh.feedthrough(), rate())));
     through = writer_.plus(through, mesh.feedthrough());
   });
-  assign(stiffness, or_zero(answer), "g − b∞/T of meshes");
-  assign(feedthrough, or_zero(through), "b∞ of meshes");
+  assign(stiffness, or_zero(answer), "g − b∞/h of the meshes");
+  assign(feedthrough, or_zero(through), "b∞ of the meshes");
 }
 
 void TunedSprings::tune_viscosity(VariableId viscosity) {
@@ -365,7 +367,7 @@ void TunedSprings::tune_viscosity(VariableId viscosity) {
   each_part_of(0, [&](const BlockPart& part) {
     if (part.kind == PartKind::mesh) sum = writer_.plus(sum, meshes_.at(&part).viscosity(given(part)));
   });
-  assign(viscosity, or_zero(sum), "b of meshes as s → 0");
+  assign(viscosity, or_zero(sum), "damping of the meshes at low frequency");
 }
 
 void TunedSprings::write_rest(ExpressionId position) {
@@ -375,7 +377,7 @@ void TunedSprings::write_rest(ExpressionId position) {
     if (part.kind == PartKind::mesh) stretch(part, meshes_.at(&part).loaded(given(part), position), false);
   });
   if (is_behind_map()) keep_sampled();
-  assign(held_force_, held(0), "π");
+  assign(held_force_, held(0), "force if the tool stays");
 }
 
 ExpressionId TunedSprings::followed(ExpressionId surface, ExpressionId depth) {
@@ -385,7 +387,7 @@ ExpressionId TunedSprings::followed(ExpressionId surface, ExpressionId depth) {
   const ExpressionId least = writer_.where(writer_.subtract(dent, gap), gap, dent);
   const VariableId returned =
       local("returned", writer_.length(), writer_.where(gap, writer_.where(dent, least, zero()), zero()),
-            "the lesser of gap and dent");
+            "the smaller of gap and dent");
   returned_ = writer_.kept(returned);
   return writer_.subtract(surface, read(returned));
 }
@@ -396,7 +398,7 @@ ExpressionId TunedSprings::brought_home(ExpressionId force, ExpressionId positio
   const ExpressionId r = read(spring->offset);
   const ExpressionId middle = middle_of_nothing(r, position, joined(spring->name, "offset"));
   const VariableId now = local(joined(spring->name, "offset_now"), writer_.length(),
-                               writer_.where(read(shed_), middle, r), "r: the middle one of 0, r and u");
+                               writer_.where(read(shed_), middle, r), "r: the median of 0, r and u");
   static_offset_now_ = writer_.kept(now);
   return writer_.add(force, writer_.multiply(spring->stiffness, writer_.subtract(r, read(now))));
 }
@@ -419,8 +421,8 @@ void TunedSprings::write_update(ExpressionId change, ExpressionId position) {
   find_held();
 }
 
-// While the tool moves by Δ, a force that is held too long may give out its size times |Δ|. The tank pays for that, and
-// keeps what the samples to come may still take.
+// While the tool moves by Δ, the force that the motor holds too long may give out its size times |Δ|. That is taken
+// from the tank, and what the coming samples may still need stays reserved in it.
 void TunedSprings::pay_what_is_owed(ExpressionId change) {
   ExpressionId sum = nothing, to_come = nothing;
   for (std::size_t i = 0; i < owed_.size(); ++i) {
@@ -429,24 +431,24 @@ void TunedSprings::pay_what_is_owed(ExpressionId change) {
     if (left > 0) to_come = writer_.plus(to_come, writer_.multiply(read(owed_[i]), change_in(left)));
   }
   const ExpressionId paid = writer_.multiply(sum, size_of(change, "owed_change"));
-  assign(tank_, writer_.subtract(read(tank_), paid), "T ← T − Σ D |Δ|");
+  assign(tank_, writer_.subtract(read(tank_), paid), "tank ← tank − Σ owed · |movement of the tool|");
   free_ = local_of("tank_free", "J", to_come == nothing ? read(tank_) : writer_.subtract(read(tank_), to_come));
 }
 
 void TunedSprings::remember_what_is_owed() {
   for (std::size_t i = owed_.size(); i-- > 1;) assign(owed_[i], read(owed_[i - 1]), "");
-  assign(owed_[0], or_zero(newly_owed_), "D of offsets that have moved in this sample");
+  assign(owed_[0], or_zero(newly_owed_), "k |r − r′| of the springs whose r has moved in this sample");
 }
 
-// How far the tool goes at most in so many samples.
+// The largest movement of the tool in so many samples.
 ExpressionId TunedSprings::change_in(std::size_t samples) {
   const std::string name = samples == 1 ? "largest_change" : fmt::format("largest_change_of_{}", samples);
-  return numbers_.constant(name, writer_.length(), "of the tool while a force is held",
+  return numbers_.constant(name, writer_.length(), "largest movement of the tool while a force is held",
                            double(samples) * head_.hold.change);
 }
 
-// Above 0 where the tank does not pay for an offset that moves: `cost`, and what the force `jump` less may give out
-// while it is held. Where it does, that is taken from the tank.
+// Above 0 if the tank has too little energy for a move of an offset: `cost`, and what the force `jump`, which the motor
+// still holds, may give out. Otherwise that is taken from the tank.
 ExpressionId TunedSprings::unpaid(const SpringNames& spring, const char* what, ExpressionId cost, ExpressionId jump) {
   const auto called = [&](const char* of) { return joined(joined(spring.name, what), of); };
   if (owed_.empty()) {
@@ -456,11 +458,12 @@ ExpressionId TunedSprings::unpaid(const SpringNames& spring, const char* what, E
   }
   const ExpressionId size = size_of(jump, called("jump"));
   if (head_.hold.rest > 0)
-    cost = local_of(called("cost_held"), "J",
-                    writer_.add(cost, writer_.multiply(size, numbers_.constant("change_after", writer_.length(),
-                                                                               "of the tool beyond that, as far as the "
-                                                                               "amplifier still lags",
-                                                                               head_.hold.rest))));
+    cost =
+        local_of(called("cost_held"), "J",
+                 writer_.add(cost, writer_.multiply(size, numbers_.constant("change_after", writer_.length(),
+                                                                            "movement of the tool after that, weighted "
+                                                                            "by what the amplifier still holds",
+                                                                            head_.hold.rest))));
   const ExpressionId whole =
       local_of(called("cost_at_most"), "J", writer_.add(cost, writer_.multiply(size, change_in(owed_.size()))));
   const ExpressionId lacking = local_of(called("unpaid"), "J", writer_.subtract(whole, free_));
@@ -484,7 +487,8 @@ void TunedSprings::advance(const BlockPart& part, ExpressionId change) {
          part.kind == PartKind::spring ? "z ← z + δ" : "z ← z + φ δ − α z");
 }
 
-// The springs of a mesh by their elongations in a sample, from where they were or from nothing.
+// Stretches the springs of a mesh by their elongations in a sample, from where they were or, with `goes_on` false, from
+// 0.
 void TunedSprings::stretch(const BlockPart& part, const std::vector<ExpressionId>& elongations, bool goes_on) {
   for (std::size_t i = 0; i < elongations.size(); ++i) {
     const MeshEdge& edge = tables_.edges[static_cast<std::size_t>(part.first_edge) + i];
@@ -495,15 +499,15 @@ void TunedSprings::stretch(const BlockPart& part, const std::vector<ExpressionId
   }
 }
 
-// All but a share of all forces is let go of.
+// Multiplies all forces by the share that is kept.
 void TunedSprings::shed(ExpressionId position) {
   const ExpressionId share = read(writer_.law().share);
   const ExpressionId binds = local_of("let_go", "1", writer_.subtract(one(), share));
   ExpressionId at = position;
   if (comes_back()) {
-    assign(dent_, writer_.subtract(read(dent_), read(returned_)), "what has come back is no dent");
+    assign(dent_, writer_.subtract(read(dent_), read(returned_)), "less what has come back");
     const ExpressionId left = writer_.multiply(share, writer_.subtract(position, read(dent_)));
-    assign(dent_, writer_.where(binds, writer_.subtract(position, left), read(dent_)), "d ← s − share (s − d)");
+    assign(dent_, writer_.where(binds, writer_.subtract(position, left), read(dent_)), "dent ← s − share (s − dent)");
     at = writer_.subtract(position, read(dent_));
   } else if (const SpringNames* spring = static_spring()) {
     assign(spring->elongation, at, "z = u");
@@ -512,7 +516,7 @@ void TunedSprings::shed(ExpressionId position) {
     each_spring(part, [&](SpringNames& spring) { shed(part, spring, share, binds); });
   });
   if (const SpringNames* spring = static_spring(); spring != nullptr && has_contact())
-    assign(spring->elongation, at, "z = s − d");
+    assign(spring->elongation, at, "z = s − dent");
   if (shed_ != nothing) {
     assign(shed_, writer_.where(binds, one(), read(shed_)), "");
     for (SpringNames& spring : springs_)
@@ -540,11 +544,12 @@ void TunedSprings::shed(const BlockPart& part, SpringNames& spring, ExpressionId
 void TunedSprings::bring_shed_offset_home(SpringNames& spring) {
   const ExpressionId r = read(spring.offset), z = read(spring.elongation);
   const ExpressionId middle = writer_.where(read(shed_), middle_of_nothing(r, z, joined(spring.name, "offset")), r);
-  if (owed_.empty()) return assign(spring.offset, middle, "r: the middle one of 0, r and z");
+  if (owed_.empty()) return assign(spring.offset, middle, "r: the median of 0, r and z");
   const ExpressionId home = local_of(joined(spring.name, "offset_home"), writer_.length(), middle);
   const ExpressionId jump = jump_of(spring, "turn_jump", r, home);
   const ExpressionId lacking = unpaid(spring, "turn", cost_of_jump(spring, jump, r, home), jump);
-  assign(spring.offset, writer_.where(lacking, r, home), "r: the middle one of 0, r and z, where the tank pays");
+  assign(spring.offset, writer_.where(lacking, r, home),
+         "r: the median of 0, r and z, if the tank has the energy for it");
 }
 
 // k (r − r′), of an offset that moves from r to r′.
@@ -570,8 +575,8 @@ ExpressionId TunedSprings::middle_of_nothing(ExpressionId x, ExpressionId y, con
   return writer_.where(least, least, writer_.where(below, most, zero()));
 }
 
-// Behind a static curve: what the static spring holds beyond what it would at home were it the stiffest, as soon as
-// that sets free what the command that is held meanwhile may give out.
+// Behind a static curve: the static spring gives up the force beyond what it would hold with its largest stiffness and
+// no offset, as soon as that sets free as much energy as the held command may give out meanwhile.
 void TunedSprings::let_go() {
   SpringNames* spring = static_spring();
   if (spring == nullptr || spring->offset == nothing) return;
@@ -594,16 +599,17 @@ void TunedSprings::let_go() {
   };
   const ExpressionId freed = writer_.multiply(writer_.multiply(k, change), left);
   assign(tank_, where_it_does(writer_.add(read(tank_), freed), read(tank_)), "");
-  assign(spring->offset, where_it_does(writer_.subtract(z, kept), r), "what cannot be held is let go of");
+  assign(spring->offset, where_it_does(writer_.subtract(z, kept), r),
+         "gives up the force beyond that of the largest k without r");
 }
 
-// Moves the offsets a part of the way back to 0, as far as the tank pays for it.
+// Moves the offsets a part of the way back to 0, as far as the energy in the tank allows.
 void TunedSprings::bring_offsets_home() {
   ExpressionId owed = nothing;
   for (SpringNames& spring : springs_) {
     if (spring.offset == nothing) continue;
     const ExpressionId r = read(spring.offset);
-    const ExpressionId retention = numbers_.constant("retention", "1", "what an offset keeps in a sample",
+    const ExpressionId retention = numbers_.constant("retention", "1", "share of r that is left after a sample",
                                                      head_.retention, ConstantRole::retention);
     const ExpressionId after =
         local_of(joined(spring.name, "offset_after"), writer_.length(), writer_.flush(writer_.multiply(retention, r)));
@@ -613,19 +619,19 @@ void TunedSprings::bring_offsets_home() {
       whole = writer_.add(whole, writer_.multiply(size_of(jump, joined(spring.name, "offset_jump")), largest_change()));
     const ExpressionId cost = local_of(joined(spring.name, "offset_cost"), "J", whole);
     const ExpressionId lacking = unpaid(spring, "offset", cost, jump);
-    assign(spring.offset, writer_.where(lacking, r, after), "r goes home where the tank pays");
+    assign(spring.offset, writer_.where(lacking, r, after), "r moves towards 0 if the tank has the energy for it");
     if (shed_ != nothing) owed = writer_.plus(owed, size_of(read(spring.offset), joined(spring.name, "offset_left")));
   }
-  if (shed_ != nothing) assign(shed_, writer_.where(owed, read(shed_), zero()), "nothing is left of what was shed");
+  if (shed_ != nothing) assign(shed_, writer_.where(owed, read(shed_), zero()), "0 as soon as no r is left");
 }
 
 void TunedSprings::find_held() {
-  assign(held_force_, held(0), "π");
+  assign(held_force_, held(0), "force if the tool stays");
   for (std::size_t i = 1; i < blocks_.size(); ++i)
-    if (blocks_[i].held != nothing) assign(blocks_[i].held, held(i), "π of the block");
+    if (blocks_[i].held != nothing) assign(blocks_[i].held, held(i), "force if the block keeps its length");
 }
 
-// π of a block; leaves meshes ready to be moved.
+// The force of a block that keeps its length, π; leaves meshes ready to be moved.
 ExpressionId TunedSprings::held(std::size_t block) {
   ExpressionId sum = nothing;
   each_part_of(block, [&](const BlockPart& part) {
@@ -659,7 +665,7 @@ void TunedSprings::write_energy() {
   for (const SpringNames& spring : springs_)
     sum = writer_.plus(sum,
                        writer_.multiply(writer_.multiply(force(spring, spring.stiffness), stretched(spring)), half()));
-  assign(writer_.law().stored, or_zero(sum), "V + T: in the springs, and what changes of parameters have set free");
+  assign(writer_.law().stored, or_zero(sum), "V + tank: in the springs, and set free by changes of parameters");
 }
 
 ExpressionId TunedSprings::stretched(const SpringNames& spring) {

@@ -1,7 +1,8 @@
-// Springs and meshes while parameters change: their elongations, what set() makes of the forces that they hold, and the
-// tank of energy that pays for it (theory, section 6). Decisions become choices between two numbers, so that but for
-// solvers of slips a sample takes the same steps whatever the values. V + T never rises by more than the work that the
-// tool does, set() included.
+// Springs and meshes while parameters change: their elongations, what set() does to their forces, and the tank of
+// energy that limits it (theory, section 6). The tank holds the energy that changes of parameters have set free; a
+// force may only be raised with energy from it. With the springs' energy V, V + tank never rises by more than the work
+// that the tool does, set() included. Decisions become choices between two numbers, so that a sample takes the same
+// steps whatever the values, except in the solvers of slips.
 #pragma once
 
 #include <map>
@@ -18,27 +19,29 @@ namespace dashpot::compiler {
 
 class TunedSprings {
  public:
-  // `numbers`: the expression of each number of the tables, φ and α of relaxations behind them. `held_force`: a state,
-  // π of all that joins tool and ground without a slip. Writer and tables outlive this.
+  // `numbers`: the expression of each number of the tables, followed by φ and α of relaxations. `held_force`: a state,
+  // the force of all that joins tool and ground without a slip while the tool stays, π. Writer and tables must outlive
+  // this object.
   TunedSprings(LawWriter& writer, const TunableTables& tables, std::vector<ExpressionId> numbers,
                VariableId held_force);
 
-  // In set(): what springs between tool and ground answer in a sample, and the numbers of meshes and slips.
+  // In set(): stiffness over one sample of the springs between tool and ground, and the numbers of meshes and slips.
   void tune(VariableId step_stiffness);
-  // After that: what meshes between tool and ground answer, dampers apart, b∞ of theirs, and b at low frequency.
+  // After that: for the meshes between tool and ground their stiffness over one sample without dampers, their b∞, and
+  // their damping at low frequency.
   void tune_meshes(VariableId stiffness, VariableId feedthrough);
   void tune_viscosity(VariableId viscosity);
-  // After all of those: each force stays what it was as far as energy allows, and what is held is found once more.
+  // After all of those: keeps each force as far as energy allows, and computes the held forces again.
   void carry_over();
 
-  // In output(): a force with the static spring's offset, where some of it is left of shedding, no further out than the
-  // tool's position; before a command is written with it.
+  // In output(), before the command is written: the force after the static spring's offset, if shedding has left one,
+  // has been brought back to the tool's position where it lay beyond it.
   ExpressionId brought_home(ExpressionId force, ExpressionId position);
-  // Also there: where a surface stands when it and its dent have followed a tool that has left.
+  // Also in output(): the place of a surface that shedding has pushed in, after it has followed a tool that left.
   ExpressionId followed(ExpressionId surface, ExpressionId depth);
-  // update(), given the change of the tool, or the surface, and where it is.
+  // Writes update() from the change and the place of the tool or, with a contact, of the surface.
   void write_update(ExpressionId change, ExpressionId position);
-  // In reset(): what joins tool and ground is loaded by a position.
+  // In reset(): loads what joins tool and ground with a position.
   void write_rest(ExpressionId position);
   void write_energy();
 
@@ -49,14 +52,14 @@ class TunedSprings {
   // What is known of a spring.
   struct SpringNames {
     std::string name;
-    VariableId elongation = nothing;  // z [m]
-    VariableId offset = nothing;      // r [m]; nothing where it is 0 at all times
-    VariableId carried = nothing;     // k for which the force was carried over last; nothing where it never changes
-    VariableId sampled = nothing, sampled_offset = nothing;  // behind a static curve z and r of the last sample
+    VariableId elongation = nothing;                         // z [m]
+    VariableId offset = nothing;                             // r [m]; `nothing` if it is always 0
+    VariableId carried = nothing;                            // k after the last change; `nothing` if it never changes
+    VariableId sampled = nothing, sampled_offset = nothing;  // behind a static curve: z and r at the last sample
     ExpressionId stiffness = nothing;                        // k [N/m]
     bool changes = false;  // its force may change with the parameters: carried over by set()
 
-    // Of a change of parameters, in set().
+    // During a change of parameters, in set().
     VariableId force = nothing, kept = nothing;
     ExpressionId wanted_energy = nothing;
   };
@@ -66,7 +69,7 @@ class TunedSprings {
   VariableId state(const SpringNames& spring, const char* what, const std::string& unit, const char* meaning);
   bool sheds() const { return tables_.sheds(); }
   bool has_contact() const { return head_.contact.is_there; }
-  // Whether an elastic part holds the surface, which then comes back; slips alone stay where they are.
+  // Whether a surface that was pushed in comes back: an elastic part brings it back, slips alone leave it there.
   bool comes_back() const { return has_contact() && (head_.static_spring != no_index || !tables_.has_slips()); }
   bool has_offsets() const;
   SpringNames* static_spring();
@@ -139,7 +142,7 @@ class TunedSprings {
   ExpressionId minus_one() { return writer_.constant("minus_one", "1", "minus one", -1, ConstantRole::plain_number); }
   ExpressionId two() { return writer_.constant("two", "1", "two", 2, ConstantRole::plain_number); }
   ExpressionId half() { return writer_.constant("half", "1", "a half", Real(0.5), ConstantRole::plain_number); }
-  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/T", head_.rate, ConstantRole::sample_rate); }
+  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/h", head_.rate, ConstantRole::sample_rate); }
 
   LawWriter& writer_;
   const TunableTables& tables_;
@@ -153,10 +156,10 @@ class TunedSprings {
   VariableId held_force_;
   VariableId tank_ = nothing, sampled_tank_ = nothing, stiffest_share_ = nothing, shed_ = nothing, dent_ = nothing,
              returned_ = nothing, static_offset_now_ = nothing;
-  // By how much the motor's force is behind those of the springs, from moves of offsets in each of the last samples,
-  // the newest first; empty where that is not counted [N].
+  // Forces that the motor still holds although moves of offsets have taken them from the springs, one for each of the
+  // last samples, the newest first; empty if that is not counted [N].
   std::vector<VariableId> owed_;
-  ExpressionId free_ = nothing;  // in update(): of T, what no sample to come can take
+  ExpressionId free_ = nothing;  // in update(): energy in the tank that no coming sample can need
   ExpressionId newly_owed_ = nothing;
 };
 

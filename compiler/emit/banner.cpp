@@ -24,12 +24,12 @@ std::string words_in(const std::vector<std::string>& facts) {
                        [&](const std::string& fact) { return fact.find(word) != std::string::npos; });
   };
   std::string text =
-      "words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive";
+      "words: passive means that the hand never gets more energy than it has put in; certified, that this is proved";
   if (are_used("mode")) text += ". A mode is a spring behind a damper, whose force dies away";
   if (are_used("observe"))
     text +=
-        ". A damper is observed where its damping is in b, and the motor makes what the spring behind it changes of "
-        "that";
+        ". A damper is observed if its damping is in b; the motor then makes the difference that the spring in series "
+        "with it causes";
   return text;
 }
 
@@ -65,7 +65,7 @@ std::string validity_text(const Network& network) {
   return text;
 }
 
-// What a scheme makes of the time between two samples.
+// How exact the scheme is between two samples.
 std::string in_words(Scheme scheme, bool switches, bool behind_map) {
   if (scheme == Scheme::backward_euler) return "the paper's own, whose error falls in proportion to the period";
   return std::string(behind_map ? "a motion whose w is straight between two samples is answered exactly"
@@ -102,9 +102,9 @@ void describe_tunables(const UpdateLaw& law, const std::string& damping_unit, st
   for (const std::string& element : tables.mesh_elements) elements += (elements.empty() ? "" : ", ") + element;
   facts.push_back("tunable: " + names);
   facts.push_back(
-      "  set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs "
-      "can pay; but the force of the last sample is still held, so call it right after step() and take the command "
-      "from output() of the same sample");
+      "  set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as "
+      "other springs set energy free; but the motor still holds the force of the last sample, so call set() right "
+      "after step() and take the command from output() of the same sample");
   facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake.text));
   if (!elements.empty())
     facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
@@ -143,14 +143,15 @@ void describe_choice(const Compilation& c, const std::string& unit, std::vector<
   const std::string capped =
       choice.capped() ? fmt::format(", lowered from {} to what the brake can give", choice.wanted_damping) : "";
   if (c.is_told_slip_by_slip())
-    facts.push_back("brake: makes the damping that follows of each slip, and the motor the rest of the force");
+    facts.push_back(
+        "brake: makes the damping that the next lines give for each slip, and the motor the rest of the force");
   else
     facts.push_back(
         fmt::format("brake: makes b = {} {} of damping{}{}, and the motor the rest of the force; by the rule '{}': {}",
-                    choice.damping, unit, capped, slips.empty() ? "" : ", behind slips also what follows", choice.name,
-                    choice.why()));
+                    choice.damping, unit, capped, slips.empty() ? "" : ", behind slips also what the next lines give",
+                    choice.name, choice.why()));
   for (const SlipLikes& likes : slips) facts.push_back(brake_line(likes, unit));
-  facts.push_back(fmt::format("states: what is kept of the past follows {} ({})", in_words(choice.state_input),
+  facts.push_back(fmt::format("states: what the law remembers follows {} ({})", in_words(choice.state_input),
                               c.decomposition.reason));
   if (!c.decomposition.in_words.empty()) facts.push_back("choice: " + c.decomposition.in_words);
   if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
@@ -231,11 +232,11 @@ std::vector<std::string> banner(const Compilation& c, const UpdateLaw& law, Timi
   facts.push_back(fmt::format("device: {}",
                               c.device ? c.device->name
                                        : "none is named: exact brake, no delay, and for velocity the difference of the "
-                                         "last two positions over the period. Pass that one: a smoother estimate is "
-                                         "later, and of it nothing is certified here"));
+                                         "last two positions over the period. Pass that velocity: a smoother estimate "
+                                         "comes later, and nothing is certified for it here"));
   if (law.tunable) describe_tunables(law, unit, facts);
   else describe_cost(law, facts);
-  if (timing == Timing::constant) facts.push_back("constant time: output() and update() decide by masks, not by jumps");
+  if (timing == Timing::constant) facts.push_back("constant time: output() and update() choose by masks, not by jumps");
   if (has_loops(c.law)) facts.push_back(loops_line(c.law, c.registers));
   if (c.law.relative_error_bound > 0)
     facts.push_back(fmt::format("rounding: {}the force of a mode is off by at most {:.2g} of its peak",
@@ -270,8 +271,8 @@ void describe_file(const Compilation& c, Fields& fields) {
   fields["name"] = c.network.name;
   fields["motion"] = name_of(c.network.port_motion);
   fields["energy_contract"] =
-      c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
-                    : "In the springs after the last update() [J].";
+      c.law.tunable ? "Energy in the springs, and set free by changes of parameters, after the last update() [J]."
+                    : "Energy in the springs after the last update() [J].";
 }
 
 }  // namespace dashpot::compiler

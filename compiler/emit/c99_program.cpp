@@ -71,7 +71,7 @@ class C99Printer {
     return all;
   }
 
-  // What has to be finite for a sample to be kept.
+  // The variables that must be finite for a sample to be kept.
   std::vector<VariableId> checked() const {
     if (law_.joints) return checked_numbers(law_);
     return {law_.position, law_.velocity, law_.checked()};
@@ -92,7 +92,7 @@ class C99Printer {
     return fmt::format("dashpot_all_finite{}({}, {}, {})", suffix_, a, b, c);
   }
 
-  // By threes, the last repeated.
+  // A condition that all are finite, three at a time, the last repeated.
   std::string all_finite(const std::vector<VariableId>& variables) const {
     std::string text;
     const auto at = [&](std::size_t i) { return name(variables[std::min(i, variables.size() - 1)], 0); };
@@ -171,8 +171,8 @@ class C99Printer {
         });
     Lines all;
     if (guards)
-      all.push_back(fmt::format("const {} threshold = {};  // below, a force is zero: no subnormal state", scalar(),
-                                number(law_.flush_threshold)));
+      all.push_back(fmt::format("const {} threshold = {};  // smaller forces become zero: no state is subnormal",
+                                scalar(), number(law_.flush_threshold)));
     for (CoefficientId id : constants) append_constant(law_.coefficients[id], all);
     append_all(all, lines);
     return all;
@@ -237,7 +237,7 @@ class C99Printer {
     return tuned == no_variable ? number(value) : name(tuned, 0);
   }
 
-  // What parameters change is made up for each step.
+  // Tables that parameters change are built for each step.
   template <class Slips>
   void append_tables_if(bool is_wanted, const Slips& slips, Lines& lines) const {
     if (!is_wanted) return;
@@ -476,7 +476,7 @@ class C99Printer {
     return all;
   }
 
-  // How many differences stand between this one and plain states.
+  // How many differences deep this bound is built on others.
   int depth_of(const StateBounds& bound) const {
     int depth = 0;
     for (const auto& [other, factor] : bound.others) depth = std::max(depth, 1 + depth_of(box_.at(other)));

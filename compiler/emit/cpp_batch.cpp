@@ -56,8 +56,8 @@ class BatchPrinter {
   }
 
  private:
-  // A state is what is read before it is assigned, or for the energy. What update() makes of other states alone, a sum
-  // of them, is as quickly added up again as it is fetched from memory.
+  // A state is a variable that is read before it is assigned, or that the energy reads. A sum of other states is no
+  // state: adding it up again is as fast as fetching it from memory.
   void find_states() {
     std::set<VariableId> assigned;
     for (const auto* program : {&law_.output, &law_.keep, &law_.update}) find_reads(*program, assigned, kept_);
@@ -88,7 +88,7 @@ class BatchPrinter {
     }
   }
 
-  // Of a program what the states that are kept follow from, and what reset() sets some to.
+  // The statements of a program that the kept states, and the values that reset() gives, depend on.
   std::vector<Statement> needed_of(const std::vector<Statement>& program) const {
     std::set<VariableId> wanted = kept_;
     wanted.insert(law_.started_at);
@@ -96,8 +96,8 @@ class BatchPrinter {
     return needed_for(std::move(wanted), program);
   }
 
-  // Of the output what the command, `update` and the energy follow from. What only the single class remembers is left
-  // out.
+  // The statements of the output that the command, `update` and the energy depend on. What only the single class
+  // remembers is left out.
   std::vector<Statement> output_for(const std::vector<Statement>& update) const {
     std::set<VariableId> wanted = kept_;
     for (const VariableId given : {law_.force, law_.brake, law_.last_brake, law_.checked()}) wanted.insert(given);
@@ -159,7 +159,7 @@ class BatchPrinter {
   // Every point has parameters of its own, in the storage.
   void append_set(CppBatch& batch) {
     const std::vector<std::string> begin = {
-        "// Every point's parameters are those that are there to begin with.",
+        "// All points get the initial values of the parameters.",
         "void begin() noexcept {",
         "  for (long long point = 0; point < points_; ++point) {",
         "    for (int number = 0; number < states; ++number) put(state_of(point), number, 0);",
@@ -169,9 +169,10 @@ class BatchPrinter {
         ""};
     batch.constants.insert(batch.constants.begin(), begin.begin(), begin.end());
     batch.set = {
-        "// Of one point, right after step(), the commands then being those of output() with the same samples: so",
-        "// the force from before is held no longer, and a spring that changes injects no energy. Bit i of the result:",
-        "// parameter i was beyond its range and is at its bound now, or it was NaN and is as it was.",
+        "// For one point. Call this right after step(), and take the commands from output() of the same samples: the",
+        "// motor then holds the old force no longer, and a spring that changes injects no energy. Bit i of the "
+        "result:",
+        "// parameter i was beyond its range and is now at its bound, or it was NaN and has not changed.",
         "unsigned set(long long point, const parameters& wanted) noexcept {",
         "  scalar* const state = state_of(point);"};
     for (const std::string& line : lines_of_point(set_program(law_), true)) batch.set.push_back("  " + line);
@@ -229,7 +230,7 @@ class BatchPrinter {
     return lines;
   }
 
-  // Solvers take one point after the other: how long each takes is a matter of its values.
+  // Solvers take one point after the other: how many steps each takes depends on its values.
   void append_solver(const Statement& statement, std::vector<std::string>& lines) {
     each_assigned(law_, statement, [&](VariableId found) {
       if (kept_.count(found) == 0) lines.push_back(fmt::format("vector {};", name(found, 0)));
@@ -305,7 +306,7 @@ class BatchPrinter {
     std::vector<std::string> lines;
     if (uses(law_, Operation::flush) || uses(law_, Operation::relax))
       lines.push_back(
-          fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state",
+          fmt::format("static constexpr scalar threshold = {};  // smaller forces become zero: no state is subnormal",
                       cpp_literal(law_.flush_threshold, law_.scalar)));
     for (CoefficientId read : constants_read(law_))
       append_constant_of_each(law_.coefficients[read], law_.scalar, lines);

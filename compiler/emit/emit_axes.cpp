@@ -20,13 +20,13 @@
 namespace dashpot::compiler {
 namespace {
 
-// For who has not read the theory: the words that the sentences below use.
+// Explains the words of the sentences below to readers who have not read the theory.
 const char* const words_of_ports =
-    "words: a port is a network of one axis behind a map w of the tool's position, which says how far the "
-    "tool has gone "
-    "into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what gives "
-    "the "
-    "hand no more energy than it got; certified, what is proved to be passive";
+    "words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has "
+    "gone "
+    "into what the network resists; B* is the damping that all ports ask for, as a matrix over the joints. Passive "
+    "means "
+    "that the hand never gets more energy than it has put in; certified, that this is proved";
 
 std::string rule_line(const AxesCompilation& c) {
   const char* what = c.rule == axes::BrakeRule::diagonal ? "each brake makes the damping of its joint, and the motors "
@@ -65,7 +65,7 @@ std::vector<std::string> banner(const AxesCompilation& c) {
   facts.push_back(fmt::format("kinematics: {}; sine and cosine by polynomials that are off by less than {:.0e}{}",
                               name_of(c.device.arm.kind), sine_error(c.law.scalar),
                               has_range ? ", of joints that stay within their encoders' ranges" : ""));
-  facts.push_back(fmt::format("scheme: {} at {} Hz, {}; what is kept of the past follows the measured position",
+  facts.push_back(fmt::format("scheme: {} at {} Hz, {}; what the law remembers follows the measured position",
                               name_of(c.law.scheme), c.rate, name_of(c.law.scalar)));
   facts.push_back(rule_line(c));
   if (c.certificate.share) facts.push_back(share_line(*c.certificate.share));

@@ -66,7 +66,7 @@ CodeModel batch_model(const Compilation& c) {
   model.fields["states"] = std::to_string(batch.states);
   model.fields["reads"] = std::to_string(batch.loaded + 2);
   model.fields["writes"] = std::to_string(batch.stored + (law.brake_changes() ? 2 : 1));
-  model.fields["energy_contract"] = "In the springs of the point [J].";
+  model.fields["energy_contract"] = "Energy in the springs of the point [J].";
   for (const std::string& header : batch.headers) model.lists["headers"].push_back({{"header", header}});
   model.lists["banner"] = as_list(banner(c, law, Timing::any));
   add_tunables(law, model);

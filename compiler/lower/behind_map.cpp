@@ -41,58 +41,61 @@ class Mapping {
   ExpressionId number(const char* name, const std::string& unit, const char* meaning, double value) {
     return writer_.constant(name, unit, meaning, Real(value), ConstantRole::map);
   }
-  ExpressionId zero() { return number("centre", writer_.length(), "of the map, which is odd", 0); }
+  ExpressionId zero() { return number("centre", writer_.length(), "centre of the map", 0); }
 
   VariableId local(const char* name, const std::string& unit, const char* meaning) {
     return writer_.scalar(name, unit, meaning, Role::local);
   }
 
-  // The cell of |u|, and how far in it |u| is. A NaN or infinite position takes the first cell, and is refused
-  // after.
+  // Which cell |u| is in, and how far from where that begins. A NaN or infinite position takes the first cell and is
+  // refused afterwards.
   void write_place(std::vector<Statement>& program) {
     side_ = writer_.read(law_.position);
     if (map_.start != 0) {
-      const VariableId depth = local("depth", writer_.length(), "of the tool behind the unloaded surface");
+      const VariableId depth = local("depth", writer_.length(), "how far the tool is beyond the unloaded surface");
       writer_.assign(program, depth,
                      writer_.subtract(
                          side_, number("surface_at", writer_.length(), "where the unloaded surface lies", map_.start)),
                      "x = u − u0");
       side_ = writer_.read(depth);
     }
-    const VariableId distance = local("distance", writer_.length(), "of the tool from where the curve begins");
+    const VariableId distance = local("distance", writer_.length(), "distance of the tool from where the curve begins");
     writer_.assign(program, distance, writer_.where(side_, side_, writer_.subtract(zero(), side_)), "|x|");
-    const VariableId in_cells = local("in_cells", "1", "the distance, within the map");
+    const VariableId in_cells = local("in_cells", "1", "that distance in cells, within the map");
     const ExpressionId cells = writer_.multiply(
-        writer_.read(distance), number("cells_per_length", "1/" + writer_.length(), "of the map", 1 / map_.width()));
-    writer_.assign(program, in_cells,
-                   writer_.clamp(cells, number("last_cell", "1", "of the map", double(map_.cubics()))), "");
-    cell_ = local("cell", "1", "of the map, counted from 0; the last is straight");
+        writer_.read(distance),
+        number("cells_per_length", "1/" + writer_.length(), "cells of the map per length", 1 / map_.width()));
+    writer_.assign(
+        program, in_cells,
+        writer_.clamp(cells, number("last_cell", "1", "number of the map's last cell", double(map_.cubics()))), "");
+    cell_ = local("cell", "1", "cell of the map, counted from 0; the last is straight");
     writer_.assign(program, cell_, writer_.where(writer_.read(in_cells), writer_.read(in_cells), zero()), "");
-    within_ = local("within", writer_.length(), "d, from where the cell begins");
+    within_ = local("within", writer_.length(), "d, distance from where the cell begins");
     writer_.assign(program, within_,
                    writer_.subtract(writer_.read(distance),
-                                    pick("cell_begins", writer_.length(), "of each cell",
+                                    pick("cell_begins", writer_.length(), "where each cell begins",
                                          [this](std::size_t i) { return Real(map_.reach) * i / map_.cubics(); })),
                    "d = |x| − x_i");
     write_cubic(program);
   }
 
-  // w = a + d (b + d s), s = c + e d
+  // w = a + d (b + d bend), bend = c + e d
   void write_cubic(std::vector<Statement>& program) {
     const auto of_cell = [&](double MapCell::*member) {
       return [this, member](std::size_t i) { return Real(map_.cell[i].*member); };
     };
-    cubic_ = local("map_cubic", "1/" + writer_.length(), "e d");
+    cubic_ = local("map_cubic", "1/" + writer_.length(), "map_e d");
+    writer_.assign(program, cubic_,
+                   writer_.multiply(pick("map_e", "1/" + writer_.length() + "²", "coefficient of d³ in each cell",
+                                         of_cell(&MapCell::e)),
+                                    writer_.read(within_)),
+                   "map_e d");
+    bend_ = local("map_bend", "1/" + writer_.length(), "map_c + map_e d");
     writer_.assign(
-        program, cubic_,
-        writer_.multiply(pick("map_e", "1/" + writer_.length() + "²", "e of each cell", of_cell(&MapCell::e)),
-                         writer_.read(within_)),
-        "e d");
-    bend_ = local("map_bend", "1/" + writer_.length(), "c + e d");
-    writer_.assign(program, bend_,
-                   writer_.add(pick("map_c", "1/" + writer_.length(), "c of each cell", of_cell(&MapCell::c)),
-                               writer_.read(cubic_)),
-                   "s = c + e d");
+        program, bend_,
+        writer_.add(pick("map_c", "1/" + writer_.length(), "coefficient of d² in each cell", of_cell(&MapCell::c)),
+                    writer_.read(cubic_)),
+        "map_c + map_e d");
   }
 
   template <class ValueOf>
@@ -110,7 +113,7 @@ class Mapping {
         writer_.add(a, writer_.multiply(d, writer_.add(slope(), writer_.multiply(d, writer_.read(bend_)))));
     const VariableId mapped = local("mapped", writer_.length(), "w, what the network sees of the tool");
     const VariableId size = local("mapped_size", writer_.length(), "|w|");
-    writer_.assign(program, size, value, "|w| = a + d (b + d s)");
+    writer_.assign(program, size, value, "|w| = map_a + d (map_b + d map_bend)");
     writer_.assign(program, mapped,
                    writer_.where(side_, writer_.read(size), writer_.subtract(zero(), writer_.read(size))),
                    "w with the sign of x");
@@ -126,7 +129,7 @@ class Mapping {
     const ExpressionId s = writer_.read(bend_);
     const ExpressionId twice = writer_.add(writer_.add(s, s), writer_.read(cubic_));
     writer_.assign(law_.output, tangent_, writer_.add(slope(), writer_.multiply(writer_.read(within_), twice)),
-                   "w′ = b + d (2 s + e d)");
+                   "w′ = map_b + d (2 map_bend + map_e d)");
   }
 
   void write_velocity(const std::vector<Statement>& output, const std::vector<Statement>& keep) {
@@ -136,13 +139,13 @@ class Mapping {
                    "ẇ = w′ u̇");
   }
 
-  // Every value of the statements becomes what `changed` makes of it.
+  // Replaces every value of the statements by changed(value).
   template <class Changed>
   static void each_value(std::vector<Statement>& program, const Changed& changed) {
     for (Statement& statement : program) statement.value = changed(statement.value);
   }
 
-  // What read the inputs reads what they are behind the map.
+  // Reads w and its rate in place of position and velocity.
   ExpressionId behind(ExpressionId id, VariableId mapped) {
     const Expression e = law_.expressions[id];
     if (e.operation == Operation::read && e.variable == law_.position) return writer_.read(mapped);
@@ -158,7 +161,7 @@ class Mapping {
   }
 
   void write_force() {
-    const VariableId behind = local("mapped_force", writer_.force(), "motor's part, behind the map");
+    const VariableId behind = local("mapped_force", writer_.force(), "M, the motor's force behind the map");
     assignment_of(law_.force).target = behind;
     for (auto* program : {&law_.output, &law_.keep})
       each_value(*program, [&](ExpressionId value) { return reading(value, law_.force, behind); });
@@ -182,11 +185,11 @@ class Mapping {
     const VariableId before = law_.brake;
     const ExpressionId behind = before != no_variable
                                     ? writer_.read(before)
-                                    : writer_.constant("mapped_damping", writer_.damping(), "b behind the map",
+                                    : writer_.constant("mapped_damping", writer_.damping(), "b_w, b behind the map",
                                                        Real(law_.damping), ConstantRole::steady_damping);
     ExpressionId told = has_brake ? writer_.multiply(writer_.read(square), behind) : nothing;
     if (added_damping_ > 0)
-      told = writer_.plus(told, writer_.constant("damping_at_tool", writer_.damping(), "what the certificate adds",
+      told = writer_.plus(told, writer_.constant("damping_at_tool", writer_.damping(), "added for passivity",
                                                  Real(added_damping_), ConstantRole::steady_damping));
     law_.brake = writer_.scalar("brake_command", writer_.damping(), "b", Role::local);
     writer_.assign(law_.output, law_.brake, told, "b = w′² b_w");
@@ -196,7 +199,7 @@ class Mapping {
     law_.largest_damping = law_.largest_damping * most * most + added_damping_;
   }
 
-  // Of tunables the state that remembered b_w remembers b, and rests at 0: set() knows no place of the tool.
+  // With tunables the state that kept b_w now keeps b. It starts at 0, since set() does not know where the tool is.
   void remember_brake() {
     if (!law_.tunable) return void(law_.last_brake = writer_.kept(law_.brake));
     for (Statement& statement : law_.keep)
@@ -204,7 +207,7 @@ class Mapping {
     std::erase_if(law_.rest, [&](const Statement& statement) { return statement.target == law_.last_brake; });
   }
 
-  // reset() asks where w is.
+  // reset() needs w at the position that it is given.
   void write_start() {
     if (law_.rest_position == no_variable) return;
     std::vector<Statement> start;

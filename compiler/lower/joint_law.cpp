@@ -23,7 +23,7 @@ using axes::Pair;
 using axes::Pose;
 using axes::Symmetric;
 
-// What the joints' positions are for one port.
+// What one port sees of the joints' positions.
 struct PortTerms {
   Term depth;           // w
   Pair<Term> gradient;  // g
@@ -48,7 +48,7 @@ GridCell cell_of(const axes::Grid& grid, const std::string& port, const Pair<Ter
   };
   const auto within = [&](std::size_t axis, const Term& place) {
     const char* const name = axis == 0 ? "map_corner_x" : "map_corner_y";
-    return tip[axis] - pick(table(name, "m", "of each cell", grid.knots[axis] + 1,
+    return tip[axis] - pick(table(name, "m", "where each cell begins", grid.knots[axis] + 1,
                                   [&](std::size_t i) { return axes::corner(grid, axis, i); }),
                             place);
   };
@@ -66,7 +66,8 @@ GridCell cell_of(const axes::Grid& grid, const std::string& port, const Pair<Ter
                              : power == 1 ? "1"
                              : power == 2 ? "1/m"
                                           : fmt::format("1/m^{}", power - 1);
-    found.coefficient[k] = pick(table(fmt::format("map_s{}_t{}", k / 4, k % 4), unit.c_str(), "of each cell",
+    found.coefficient[k] = pick(table(fmt::format("map_s{}_t{}", k / 4, k % 4), unit.c_str(),
+                                      fmt::format("coefficient of s^{} t^{} in each cell", k / 4, k % 4).c_str(),
                                       grid.cell.size(), [&](std::size_t i) { return grid.cell[i].coefficient[k]; }),
                                 cell);
   }
@@ -101,7 +102,7 @@ class FieldCell {
                  place(1));
     for (std::size_t axis = 0; axis < 2; ++axis)
       from_corner_[axis] = within_[axis] - pick(table(axis == 0 ? "field_corner_x" : "field_corner_y", "m",
-                                                      "of each cell, from the first knot", cells_[axis],
+                                                      "where each cell begins, from the first knot", cells_[axis],
                                                       [&](std::size_t i) { return double(i) * field_.spacing[axis]; }),
                                                 place(axis));
   }
@@ -118,7 +119,7 @@ class FieldCell {
   }
 
  private:
-  // At the last knot it is that of no cell any more: tables repeat their last number there.
+  // At the last knot it is one beyond the last cell: tables repeat their last number there.
   Term place(std::size_t axis) const { return Term(1 / field_.spacing[axis]) * within_[axis]; }
 
   template <typename ValueAt>
@@ -131,7 +132,8 @@ class FieldCell {
   TermTable numbers_of(std::size_t i, std::size_t j, std::size_t power) const {
     static constexpr const char* powers[] = {"", "_by_x", "_by_y", "_by_xy"};
     static constexpr const char* units[] = {"N·s/m", "N·s/m²", "N·s/m²", "N·s/m³"};
-    TermTable made{fmt::format("field_{}{}{}", i + 1, j + 1, powers[power]), units[power], "of each cell", {}};
+    TermTable made{
+        fmt::format("field_{}{}{}", i + 1, j + 1, powers[power]), units[power], "value or derivative in each cell", {}};
     for (std::size_t row = 0; row < cells_[1]; ++row)
       for (std::size_t column = 0; column < cells_[0]; ++column)
         made.values.push_back(axes::cell_entry(field_, column, row, i, j)[power]);
@@ -163,7 +165,7 @@ axes::Matrix<Term> field_terms(const axes::ViscousField& field, const Pair<Term>
   return {{{first, upper}, {lower, last}}};
 }
 
-// What becomes of a port's law in the one of all.
+// A port's law as a part of the law of all ports.
 struct Merged {
   VariableId position, velocity;  // locals: w and its rate
   VariableId force;               // M
@@ -216,10 +218,10 @@ class Merging {
     }
     for (std::size_t i = 0; i < 2; ++i)
       joints.torques.push_back(writer_.scalar(writer_.unique("torque_" + std::to_string(i + 1)), torque_unit(),
-                                              "of motor " + std::to_string(i + 1), Role::local));
+                                              "torque of motor " + std::to_string(i + 1), Role::local));
     for (std::size_t k = 0; k < plan_.brakes.size(); ++k)
       joints.dampings.push_back(writer_.scalar(writer_.unique("damping_" + std::to_string(k + 1)), damping_unit(),
-                                               "of brake " + std::to_string(k + 1), Role::local));
+                                               "damping of brake " + std::to_string(k + 1), Role::local));
   }
 
   void name_numbers(TermWriter& terms) const {
@@ -229,23 +231,25 @@ class Merging {
     terms.call(0, "nothing", "1", "0");
     terms.call(plan_.arm.proximal, "proximal_link", "m", "length of the link at the motor");
     terms.call(plan_.arm.distal, "distal_link", "m", "length of the link at the tip");
-    terms.call(plan_.arm.distal * plan_.arm.distal, "distal_link_squared", "m²", "square of that");
+    terms.call(plan_.arm.distal * plan_.arm.distal, "distal_link_squared", "m²",
+               "square of the length of the link at the tip");
     terms.call(plan_.arm.base, "base", "m", "distance of the motor axes");
-    terms.call(plan_.arm.base / 2, "half_base", "m", "half of that");
+    terms.call(plan_.arm.base / 2, "half_base", "m", "half the distance of the motor axes");
     for (std::size_t k = 0; k < plan_.brakes.size(); ++k) {
-      terms.call(plan_.added[k], "added_damping_" + std::to_string(k + 1), damping_unit(), "for passivity alone");
+      terms.call(plan_.added[k], "added_damping_" + std::to_string(k + 1), damping_unit(),
+                 "added to the brake's command for passivity");
       terms.call(plan_.brakes[k].most, "most_damping_" + std::to_string(k + 1), damping_unit(),
-                 "that the brake gives, less what is added");
+                 "largest damping of the brake, less what is added");
     }
     if (plan_.gate) {
       const axes::CurlGate& gate = *plan_.gate;
       for (std::size_t k = 0; k < 2; ++k)
         terms.call(gate.factor[k], "gate_factor_" + std::to_string(k + 1), "1",
-                   "of the brake's damping, what couplings may use");
-      terms.call(gate.reserve, "gate_reserve", damping_unit(), "of that, for what limits may grow");
-      terms.call(gate.recovery, "gate_recovery", damping_unit(), "by what a limit may grow in a sample");
-      terms.call(0.5 / gate.gain, "gate_half", "1", "1/(2γ) of the velocity estimators");
-      terms.call(1 / gate.gain, "gate_share", "1", "1/γ of the velocity estimators");
+                   "factor of the brake's damping that couplings may use");
+      terms.call(gate.reserve, "gate_reserve", damping_unit(), "part of that kept back for limits that grow");
+      terms.call(gate.recovery, "gate_recovery", damping_unit(), "largest growth of a limit in a sample");
+      terms.call(0.5 / gate.gain, "gate_half", "1", "1/(2γ), γ the gain of the velocity estimators");
+      terms.call(1 / gate.gain, "gate_share", "1", "1/γ, γ the gain of the velocity estimators");
     }
     for (const PortLaw& port : ports_) {
       terms.call(port.law.damping, joined(port.name, "damping"), "N·s/m", "b of the port");
@@ -254,19 +258,20 @@ class Merging {
       };
       match(
           port.map,
-          [&](const axes::Plane& plane) { call(plane.offset, "offset", "m", "of the plane from the origin"); },
+          [&](const axes::Plane& plane) { call(plane.offset, "offset", "m", "distance of the plane from the origin"); },
           [&](const axes::Circle& circle) {
-            call(circle.centre[0], "centre_x", "m", "of the circle");
-            call(circle.centre[1], "centre_y", "m", "of the circle");
-            call(circle.radius, "radius", "m", "of the circle");
+            call(circle.centre[0], "centre_x", "m", "x of the circle's centre");
+            call(circle.centre[1], "centre_y", "m", "y of the circle's centre");
+            call(circle.radius, "radius", "m", "radius of the circle");
           },
-          [&](const axes::Band& band) { call(band.radius, "radius", "m", "of the band"); },
+          [&](const axes::Band& band) { call(band.radius, "radius", "m", "radius of the band"); },
           [&](const axes::Grid& grid) {
             for (std::size_t axis = 0; axis < 2; ++axis) {
               const std::string of = axis == 0 ? "x" : "y";
-              call(1 / grid.spacing[axis], "cells_per_length_" + of, "1/m", "of the grid");
-              call(grid.start[axis] - grid.spacing[axis], "grid_before_" + of, "m", "a cell before the first knot");
-              call(double(grid.knots[axis]), "last_cell_" + of, "1", "of the grid");
+              call(1 / grid.spacing[axis], "cells_per_length_" + of, "1/m", "cells of the grid per length");
+              call(grid.start[axis] - grid.spacing[axis], "grid_before_" + of, "m",
+                   "where the cell before the first knot begins");
+              call(double(grid.knots[axis]), "last_cell_" + of, "1", "number of the grid's last cell");
             }
           });
     }
@@ -276,9 +281,10 @@ class Merging {
         const double length = double(plan_.field.knots[axis] - 1) * plan_.field.spacing[axis];
         terms.call(plan_.field.start[axis], "field_start_" + of, "m", "the first knot of the field's grid");
         terms.call(length, "field_length_" + of, "m", "from the first knot to the last");
-        terms.call(1 / plan_.field.spacing[axis], "field_cells_per_length_" + of, "1/m", "of the field's grid");
+        terms.call(1 / plan_.field.spacing[axis], "field_cells_per_length_" + of, "1/m",
+                   "cells of the field's grid per length");
       }
-    terms.call(axes::blunting * axes::blunting, "blunting_squared", "m²", "keeps the distance from zero");
+    terms.call(axes::blunting * axes::blunting, "blunting_squared", "m²", "keeps the distance above zero");
   }
 
   Merged append(const PortLaw& port) {
@@ -341,7 +347,7 @@ class Merging {
           axes::at_joints(pose, field_terms(plan_.field, pose.tip), plan_.field.is_symmetric());
       target = {at_joints.p, at_joints.r, at_joints.s};
       turning = at_joints.sigma;
-      terms_.call(turning, "turning", damping_unit(), "σ, what the field turns the joints by");
+      terms_.call(turning, "turning", damping_unit(), "σ, antisymmetric part of the field, at the joints");
     }
     Pair<Term> torque{Term(0.0), Term(0.0)};
     for (std::size_t i = 0; i < ports.size(); ++i) {
@@ -371,23 +377,24 @@ class Merging {
       for (const Term& one : passed->left) terms_.count(one);
     for (std::size_t i = 0; i < ports.size(); ++i) {
       terms_.assign(law_.output, merged_[i].position, ports[i].depth, "w of port " + ports_[i].name);
-      if (reads_velocity(i)) terms_.assign(law_.output, merged_[i].velocity, rates[i], "ẇ = g·v");
+      if (reads_velocity(i)) terms_.assign(law_.output, merged_[i].velocity, rates[i], "ẇ = Σ ∂w/∂q v");
       law_.output.insert(law_.output.end(), merged_[i].output.begin(), merged_[i].output.end());
     }
     for (std::size_t k = 0; k < commands.size(); ++k)
-      terms_.assign(law_.output, law_.joints->dampings[k], commands[k], k == 0 ? "D of B*" : "");
+      terms_.assign(law_.output, law_.joints->dampings[k], commands[k], k == 0 ? "D, what the brakes make of B*" : "");
     for (std::size_t j = 0; j < 2; ++j)
-      terms_.assign(law_.output, law_.joints->torques[j], torque[j], j == 0 ? "τ = Σ g M + (B* − D) v" : "");
+      terms_.assign(law_.output, law_.joints->torques[j], torque[j], j == 0 ? "τ = Σ ∂w/∂q M + (B* − D) v" : "");
     if (passed) keep_limits(*passed);
     for (const VariableId damping : law_.joints->dampings) law_.joints->last_dampings.push_back(writer_.kept(damping));
   }
 
-  // Adds to the torque what the motors make of ports and field, in the brakes' coordinates.
+  // Adds to the torque what the gate lets the motors make of ports and field, in the brakes' coordinates.
   axes::Gated<Term> behind_gate(const Symmetric<Term>& target, const Term& turning, const std::vector<Term>& brakes,
                                 const Pair<Term>& v, Pair<Term>& torque) {
     for (std::size_t k = 0; k < 2; ++k)
-      limits_[k] = writer_.scalar(writer_.unique("coupling_left_" + std::to_string(k + 1)), damping_unit(),
-                                  "what the gate has left of brake " + std::to_string(k + 1), Role::state);
+      limits_[k] =
+          writer_.scalar(writer_.unique("coupling_left_" + std::to_string(k + 1)), damping_unit(),
+                         "what the gate has left of the allowance of brake " + std::to_string(k + 1), Role::state);
     const Pair<double> along[] = {plan_.brakes[0].along, plan_.brakes[1].along};
     const Pair<Pair<double>> dual = axes::dual(along[0], along[1]);
     const auto [p, r, s] = axes::along_brakes(dual, target);
@@ -409,8 +416,8 @@ class Merging {
   void keep_limits(const axes::Gated<Term>& passed) {
     for (std::size_t k = 0; k < 2; ++k) {
       const VariableId now = writer_.scalar(writer_.unique("coupling_left_now_" + std::to_string(k + 1)),
-                                            damping_unit(), "what it will have left", Role::local);
-      terms_.assign(law_.output, now, passed.left[k], k == 0 ? "limit of the other coupling, at the next sample" : "");
+                                            damping_unit(), "what it leaves for the next sample", Role::local);
+      terms_.assign(law_.output, now, passed.left[k], k == 0 ? "limit of the other coupling at the next sample" : "");
       writer_.assign(law_.update, limits_[k], writer_.read(writer_.kept(now)), "");
     }
   }
@@ -433,12 +440,12 @@ class Merging {
       law_.energy.insert(law_.energy.end(), port.energy.begin(), port.energy.end());
       sum = writer_.plus(sum, writer_.read(port.stored));
     }
-    law_.stored = writer_.scalar("stored", "J", "in all ports", Role::local);
-    writer_.assign(law_.energy, law_.stored, sum, "V of all ports");
+    law_.stored = writer_.scalar("stored", "J", "energy in the springs of all ports", Role::local);
+    writer_.assign(law_.energy, law_.stored, sum, "Σ V of all ports");
   }
 
-  // Where each port is when the joints are where reset() says. Names of its locals begin anew: it is a function of its
-  // own.
+  // Where each port is at the joint positions given to reset(). That is a function of its own, so its locals may have
+  // the names of other functions' locals.
   void write_start() {
     LawWriter writer(law_, plan_.joint_motion);
     TermWriter terms(writer, terms_);

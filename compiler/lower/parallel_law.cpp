@@ -47,13 +47,13 @@ class InParallel {
     law_.stored = writer_.scalar("stored", "J", "energy in the springs", Role::local);
   }
 
-  // What a port makes of the force, within its share of the motor.
+  // The port's force, within its share of the motor.
   ExpressionId force_of(std::size_t i) {
     const ExpressionId force = writer_.read(appended_[i].at(ports_[i].law.force));
     if (!ports_[i].clamps_at) return force;
     return writer_.clamp(force, writer_.constant(joined(ports_[i].name, "motor_limit"), writer_.force(),
-                                                 "its share of what the motor can give", Real(*ports_[i].clamps_at),
-                                                 ConstantRole::motor_reach));
+                                                 "the port's share of the motor's largest force",
+                                                 Real(*ports_[i].clamps_at), ConstantRole::motor_reach));
   }
 
   ExpressionId wanted_of(std::size_t i) {
@@ -71,13 +71,13 @@ class InParallel {
     }
     if (is_limited) {
       law_.wanted =
-          writer_.scalar(writer_.unique("wanted"), writer_.force(), "motor's part m, were there no limit", Role::local);
-      writer_.assign(law_.output, law_.wanted, wanted, "Σ m of all ports, were there no limit");
+          writer_.scalar(writer_.unique("wanted"), writer_.force(), "m before the motor's limits", Role::local);
+      writer_.assign(law_.output, law_.wanted, wanted, "Σ m of all ports before the motor's limits");
     }
     writer_.assign(law_.output, law_.force, force, "m = Σ m of all ports");
   }
 
-  // The least of the ports' shares.
+  // The smallest of the ports' kept shares.
   void write_share() {
     VariableId least = no_variable;
     for (std::size_t i = 0; i < ports_.size(); ++i) {
@@ -90,11 +90,12 @@ class InParallel {
         least = share;
         continue;
       }
-      const VariableId both = writer_.scalar(writer_.unique("share"), "1", "of all forces, that is kept", Role::local);
+      const VariableId both =
+          writer_.scalar(writer_.unique("share"), "1", "share of all forces that is kept", Role::local);
       writer_.assign(law_.output, both,
                      writer_.where(writer_.subtract(writer_.read(share), writer_.read(least)), writer_.read(least),
                                    writer_.read(share)),
-                     "the least share that a port keeps");
+                     "smallest share that any port keeps");
       least = both;
     }
     if (least != no_variable) law_.share = writer_.kept(least);

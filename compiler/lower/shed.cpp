@@ -30,17 +30,17 @@ class Shedding {
 
  private:
   ExpressionId zero() {
-    return writer_.constant("none_kept", "1", "the share of a force that is let go of", 0, ConstantRole::motor_reach);
+    return writer_.constant("none_kept", "1", "share where nothing is kept", 0, ConstantRole::motor_reach);
   }
   ExpressionId one() {
-    return writer_.constant("all_kept", "1", "the share where no limit binds", 1, ConstantRole::motor_reach);
+    return writer_.constant("all_kept", "1", "share where no limit binds", 1, ConstantRole::motor_reach);
   }
   ExpressionId limit() {
-    return writer_.constant("motor_limit", writer_.force(), "what the motor can give", Real(reach_.limit),
+    return writer_.constant("motor_limit", writer_.force(), "largest force of the motor", Real(reach_.limit),
                             ConstantRole::motor_reach);
   }
   ExpressionId step() {
-    return writer_.constant("motor_step", writer_.force(), "what the motor can change by in a period",
+    return writer_.constant("motor_step", writer_.force(), "largest change of the motor's force in a sample",
                             Real(reach_.step), ConstantRole::motor_reach);
   }
   ExpressionId divide(ExpressionId above, ExpressionId below) {
@@ -72,7 +72,7 @@ class Shedding {
 
   void loosen_static_spring() {
     if (!has_static_spring()) return;
-    shift_ = writer_.scalar("rest_shift", writer_.length(), "r, where the static spring is at rest", Role::state);
+    shift_ = writer_.scalar("rest_shift", writer_.length(), "r, rest position of the static spring", Role::state);
     shift_now_ = shift_;
     std::vector<Statement> opening;
     if (!law_.surface_at) open_port(opening);
@@ -81,14 +81,14 @@ class Shedding {
     for (Statement& statement : law_.energy) statement.value = loosened_energy(statement.value);
   }
 
-  // The place after a static curve's map: the springs see w, which is known from there on.
+  // The first statement after a static curve's map: from there on w is known, which the springs follow.
   std::vector<Statement>::iterator after_map() {
     if (law_.mapped == no_variable) return law_.output.begin();
     return std::next(std::find_if(law_.output.begin(), law_.output.end(),
                                   [&](const Statement& s) { return s.target == law_.mapped; }));
   }
 
-  // The middle one of 0, r and u.
+  // The median of 0, r and u.
   void open_port(std::vector<Statement>& opening) {
     shift_now_ = writer_.scalar("rest_shift_now", writer_.length(), "r", Role::local);
     const auto shift = [&] { return writer_.read(shift_); };
@@ -97,11 +97,11 @@ class Shedding {
     const ExpressionId most = writer_.where(writer_.subtract(shift(), tool()), shift(), tool());
     writer_.assign(opening, shift_now_,
                    writer_.where(shift(), writer_.where(tool(), least, none()), writer_.where(tool(), none(), most)),
-                   "r: the middle one of 0, r and u");
+                   "r: the median of 0, r and u");
   }
 
   ExpressionId none() {
-    return writer_.constant("no_shift", writer_.length(), "of a spring at rest", 0, ConstantRole::motor_reach);
+    return writer_.constant("no_shift", writer_.length(), "no shift", 0, ConstantRole::motor_reach);
   }
 
   ExpressionId loosened_energy(ExpressionId id) {
@@ -117,15 +117,16 @@ class Shedding {
   void write_command() {
     const auto told = std::find_if(law_.output.begin(), law_.output.end(),
                                    [&](const Statement& s) { return s.target == law_.force; });
-    law_.wanted = writer_.scalar("wanted", writer_.force(), "motor's part m, were there no limit", Role::local);
+    law_.wanted = writer_.scalar("wanted", writer_.force(), "m before the motor's limits", Role::local);
     told->target = law_.wanted;
     reach_.step > 0 ? write_within_step() : write_within_limit();
-    share_ = writer_.scalar("share", "1", "s, of all forces, that is kept", Role::local);
+    share_ = writer_.scalar("share", "1", "share of all forces that is kept", Role::local);
     const ExpressionId wanted = writer_.read(law_.wanted), force = writer_.read(law_.force);
     ExpressionId kept = divide(force, wanted);
     if (reach_.step > 0) kept = writer_.where(writer_.multiply(force, wanted), kept, zero());
     const ExpressionId beyond = writer_.multiply(writer_.subtract(wanted, force), wanted);
-    writer_.assign(law_.output, share_, writer_.where(beyond, kept, one()), "s = m/wanted where that is beyond m");
+    writer_.assign(law_.output, share_, writer_.where(beyond, kept, one()),
+                   "share = m/wanted where wanted is beyond m, else 1");
   }
 
   void write_within_limit() {
@@ -136,10 +137,12 @@ class Shedding {
   void write_within_step() {
     const VariableId last = writer_.scalar("last_command", writer_.force(),
                                            "m of the sample before, within the motor's limits", Role::state);
-    const VariableId top = writer_.scalar("most", writer_.force(), "that the motor can reach", Role::local);
-    const VariableId bottom = writer_.scalar("least", writer_.force(), "that the motor can reach", Role::local);
+    const VariableId top =
+        writer_.scalar("most", writer_.force(), "largest force that the motor can reach", Role::local);
+    const VariableId bottom =
+        writer_.scalar("least", writer_.force(), "smallest force that the motor can reach", Role::local);
     const auto within = [&](ExpressionId value) { return reach_.limit > 0 ? writer_.clamp(value, limit()) : value; };
-    writer_.assign(law_.output, top, within(writer_.add(writer_.read(last), step())), "m₋ ± ρh");
+    writer_.assign(law_.output, top, within(writer_.add(writer_.read(last), step())), "m₋ ± motor_step");
     writer_.assign(law_.output, bottom, within(writer_.subtract(writer_.read(last), step())), "");
     const auto read = [&](VariableId variable) { return writer_.read(variable); };
     const ExpressionId above =
@@ -157,7 +160,7 @@ class Shedding {
     shrink_states();
   }
 
-  // r ← r + (1 − s) (x − r), x the tool or the surface
+  // r ← r + (1 − share) (x − r), where x is the position of tool or surface
   void keep_spring() {
     if (shift_ == no_variable) return;
     const VariableId at = law_.surface_at ? local("surface_now") : law_.moved();
@@ -165,7 +168,7 @@ class Shedding {
     const ExpressionId spread = writer_.subtract(writer_.read(at), writer_.read(shift_now_));
     const ExpressionId let_go = writer_.subtract(one(), writer_.read(share_));
     writer_.assign(law_.output, next, writer_.add(writer_.read(shift_now_), writer_.multiply(let_go, spread)),
-                   "r ← u − s (u − r)");
+                   law_.surface_at ? "r ← s − share (s − r)" : "r ← u − share (u − r)");
     const ExpressionId kept = writer_.read(writer_.kept(next));
     if (!law_.surface_at) return writer_.assign(law_.update, shift_, kept, "");
     const ExpressionId back = writer_.read(writer_.kept(returned(next)));
@@ -174,14 +177,14 @@ class Shedding {
       if (statement.target == law_.rest_position) statement.value = writer_.subtract(statement.value, back);
   }
 
-  // Surface and r follow a tool that has left, until r is 0: what stands between them stays as it is.
+  // Surface and r follow a tool that has left, until r is 0; what lies between them keeps its length.
   VariableId returned(VariableId shift) {
     const VariableId gap = local("gap");
     const VariableId back =
-        writer_.scalar("returned", writer_.length(), "by the surface behind a tool that has left", Role::local);
+        writer_.scalar("returned", writer_.length(), "how far the surface follows a tool that has left", Role::local);
     const ExpressionId further = writer_.subtract(writer_.read(shift), writer_.read(gap));
     const ExpressionId least = writer_.where(further, writer_.read(gap), writer_.read(shift));
-    writer_.assign(law_.output, back, writer_.where(writer_.read(gap), least, none()), "the lesser of gap and r");
+    writer_.assign(law_.output, back, writer_.where(writer_.read(gap), least, none()), "the smaller of gap and r");
     return back;
   }
 
@@ -191,7 +194,7 @@ class Shedding {
     throw std::logic_error("shedding: a contact without a surface");
   }
 
-  // Every force is made once in an update, of what it was before and of the sample, and some are sums of others.
+  // Scales each force where the update assigns it. A sum of forces that are scaled already is not scaled again.
   void shrink_states() {
     std::set<VariableId> shrunk;
     for (Statement& statement : law_.update) {

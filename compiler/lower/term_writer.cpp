@@ -10,7 +10,7 @@
 namespace dashpot::compiler {
 namespace {
 
-// Of P, and one more of Q: off by less than sine_error() with the smallest number of coefficients.
+// The number of coefficients of P; Q has one more. The smallest for which both are off by less than sine_error().
 std::size_t sine_terms(ScalarType scalar) { return scalar == ScalarType::float64 ? 8 : 5; }
 
 // The polynomial in z, lowest power first, that meets f at the Chebyshev nodes of [0, end]; by Newton's divided
@@ -53,10 +53,10 @@ std::pair<Real, Real> parts_of_pi(ScalarType scalar) {
   return {high, pi - high};
 }
 
-// Added and taken away again, it leaves the nearest whole number of what is much smaller.
+// If this is added to a much smaller number and taken away again, the nearest whole number is left.
 Real rounder(ScalarType scalar) { return ldexp(Real(3), scalar == ScalarType::float64 ? 51 : 22); }
 
-// Of an angle that is reduced by them; beyond nobody states a range.
+// Largest k that is tried; no encoder's range goes further.
 constexpr int most_eighths = 32;
 
 }  // namespace
@@ -242,8 +242,8 @@ TermWriter::Circular TermWriter::about_half_turns(Signed angle, const std::strin
   const Signed per_turn = named(1 / boost::math::constants::pi<Real>(), "half_turns_per_radian", "1/rad", "1/π");
   const Signed turns = nearest(multiply(angle, per_turn));
   label(turns, "half_turns_" + which, "1", "k, nearest to θ/π");
-  Signed rest = add(angle, {multiply(turns, named(high, "half_turn", "rad", "π, its first digits")).node, true});
-  rest = add(rest, {multiply(turns, named(low, "half_turn_rest", "rad", "π, what is left of it")).node, true});
+  Signed rest = add(angle, {multiply(turns, named(high, "half_turn", "rad", "π, rounded")).node, true});
+  rest = add(rest, {multiply(turns, named(low, "half_turn_rest", "rad", "what rounding took from π")).node, true});
   label(rest, "rest_" + which, "rad", "r = θ − k π");
   const Signed z = multiply(rest, rest);
   label(z, "rest_squared_" + which, "rad²", "r²");
@@ -264,10 +264,11 @@ TermWriter::Circular TermWriter::about_eighth_turns(Signed angle, int eighths, c
     const auto [high, low] = parts_of_pi(scalar);
     const Real count = Real(eighths) / 4;
     const std::string name = fmt::format("eighth_turns_{}", std::abs(eighths));
-    for (const Signed part : {named(count * high, name, "rad", "a multiple of π/4, its first digits"),
-                              named(count * low, name + "_rest", "rad", "a multiple of π/4, what is left of it")})
+    for (const Signed part :
+         {named(count * high, name, "rad", "a multiple of π/4, rounded"),
+          named(count * low, name + "_rest", "rad", "what rounding took from that multiple of π/4")})
       rest = add(rest, {part.node, !part.is_negative});
-    label(rest, "rest_" + which, "rad", "r, from a multiple of π/4");
+    label(rest, "rest_" + which, "rad", "r = θ − a multiple of π/4");
   }
   const Signed z = multiply(rest, rest);
   label(z, "rest_squared_" + which, "rad²", "r²");
@@ -285,7 +286,7 @@ TermWriter::Circular TermWriter::about_eighth_turns(Signed angle, int eighths, c
   return {sine, cosine};
 }
 
-// k, where the angle stays within a quarter turn of k π/4; even where it can be, which takes less.
+// k, if the angle stays within a quarter turn of k π/4; an even one if possible, which takes fewer operations.
 std::optional<int> TermWriter::eighths_nearby(NodeId angle) const {
   const std::optional<std::pair<double, double>> range = range_of(angle);
   if (!range) return std::nullopt;
@@ -317,7 +318,7 @@ TermWriter::Signed TermWriter::polynomial(const std::vector<Real>& coefficients,
   for (std::size_t i = coefficients.size(); i-- > 0;) {
     const double value = rounded(coefficients[i], writer_.law().scalar);
     call(value, fmt::format("{}_{}", name, i), i == 0 ? "1" : fmt::format("1/rad^{}", 2 * i),
-         "of the polynomial in r²");
+         "coefficient of the polynomial in r²");
     sum = i + 1 == coefficients.size() ? number(value) : add(number(value), multiply(sum, z));
   }
   return sum;
@@ -348,7 +349,8 @@ ExpressionId TermWriter::written(std::vector<Statement>& program, NodeId id) {
     auto found = labels_.find(nodes_[id].number);
     if (found == labels_.end())
       found =
-          labels_.emplace(nodes_[id].number, Label{fmt::format("number_{}", ++numbers_), "", "of the geometry"}).first;
+          labels_.emplace(nodes_[id].number, Label{fmt::format("number_{}", ++numbers_), "", "number of the geometry"})
+              .first;
     Label& label = found->second;
     if (!label.is_made) label.name = writer_.unique(label.name);
     label.is_made = true;

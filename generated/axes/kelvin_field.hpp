@@ -5,7 +5,7 @@
 // port out: behind the map 'wall'; b = 1 N·s/m by the rule 'paper'
 // kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16, of joints that stay within
 //   their encoders' ranges
-// scheme: exact at 10000 Hz, double; what is kept of the past follows the measured position
+// scheme: exact at 10000 Hz, double; what the law remembers follows the measured position
 // brakes: by the rule 'diagonal' each brake makes the damping of its joint, and the motors the forces by which one
 //   joint's velocity acts on the other
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 100 % at least, at (-11,
@@ -24,8 +24,8 @@
 // cost of output(): 68 additions, 78 multiplications, 2 selections, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
 // words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has
-//   gone into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what
-//   gives the hand no more energy than it got; certified, what is proved to be passive
+//   gone into what the network resists; B* is the damping that all ports ask for, as a matrix over the joints.
+//   Passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 891796bb1804f2b9e2fd5639d51c9ddbcd99cc9834cf0fe75acc324a0ae3ae4c. It belongs to whoever had it
@@ -45,7 +45,7 @@ class kelvin_field {
   static constexpr scalar sample_period = 0.0001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::rotation;  // of the joints
 
-  // Of each brake's command the part that is there for passivity alone [N·m·s/rad].
+  // The part of each brake's command that was added for passivity [N·m·s/rad].
   static constexpr scalar added_damping[brakes] = {0.0044614856021759405, 0.0044614856021759405};
 
   // What the servo loop compares with the device that it drives.
@@ -60,12 +60,12 @@ class kelvin_field {
 
   struct parameters {};
 
-  // At rest with the joints at `position` [rad], springs relaxed but for the static load. A NaN or infinite
-  // position counts as 0.
+  // Starts at rest with the joints at `position` [rad]: only the springs that hold a force at rest are loaded. A
+  // NaN or infinite position counts as 0.
   void reset(const scalar (&position)[axes] = {}) noexcept {
     const scalar q1 = dashpot::all_finite(position[0]) ? position[0] : 0;
     const scalar q2 = dashpot::all_finite(position[1]) ? position[1] : 0;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
@@ -78,7 +78,7 @@ class kelvin_field {
     // −cos θ
     const scalar cosine_1 = root_of_half * (part_1 + part_2);
     const scalar part_3 = proximal_link * cosine_1;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
@@ -123,7 +123,7 @@ class kelvin_field {
   dashpot::commands<scalar, axes, brakes> output(const scalar (&position)[axes],
                                                  const scalar (&velocity)[axes]) noexcept {
     const scalar q1 = position[0], q2 = position[1], v1 = velocity[0], v2 = velocity[1];
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
@@ -136,7 +136,7 @@ class kelvin_field {
     // −cos θ
     const scalar cosine_1 = root_of_half * (part_1 + part_2);
     const scalar part_3 = proximal_link * cosine_1;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
@@ -190,7 +190,7 @@ class kelvin_field {
     // B* of joint 1
     const scalar wanted_11 = x_by_q1 * x_by_q1 + y_by_q1 * y_by_q1;
     const scalar part_23 = most_damping_1 - wanted_11 > 0 ? wanted_11 : most_damping_1;
-    // D of B*
+    // D, what the brakes make of B*
     const scalar damping_1 = part_23 + added_damping_1;
     const scalar part_24 = part_19 * (part_9 * part_22 + part_6 * part_21);
     // −∂x/∂q2
@@ -203,7 +203,7 @@ class kelvin_field {
     const scalar damping_2 = added_damping_1 + part_25;
     // B* between the joints
     const scalar wanted_12 = x_by_q1 * x_by_q2 - y_by_q1 * y_by_q2;
-    // τ = Σ g M + (B* − D) v
+    // τ = Σ ∂w/∂q M + (B* − D) v
     const scalar torque_1 = (wanted_11 - part_23) * v1 + wanted_12 * v2 - (x_by_q1 * across_force +
         y_by_q1 * out_force);
     const scalar torque_2 = y_by_q2 * out_force - x_by_q2 * across_force + (wanted_12 * v1 +
@@ -218,7 +218,7 @@ class kelvin_field {
     return {{damping_1, damping_2}, {torque_1, torque_2}};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -228,11 +228,11 @@ class kelvin_field {
     out_last_position_ = out_sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::commands<scalar, axes, brakes> step(const scalar (&position)[axes],
                                                const scalar (&velocity)[axes]) noexcept {
     const scalar q1 = position[0], q2 = position[1], v1 = velocity[0], v2 = velocity[1];
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
@@ -245,7 +245,7 @@ class kelvin_field {
     // −cos θ
     const scalar cosine_1 = root_of_half * (part_1 + part_2);
     const scalar part_3 = proximal_link * cosine_1;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
@@ -299,7 +299,7 @@ class kelvin_field {
     // B* of joint 1
     const scalar wanted_11 = x_by_q1 * x_by_q1 + y_by_q1 * y_by_q1;
     const scalar part_23 = most_damping_1 - wanted_11 > 0 ? wanted_11 : most_damping_1;
-    // D of B*
+    // D, what the brakes make of B*
     const scalar damping_1 = part_23 + added_damping_1;
     const scalar part_24 = part_19 * (part_9 * part_22 + part_6 * part_21);
     // −∂x/∂q2
@@ -312,7 +312,7 @@ class kelvin_field {
     const scalar damping_2 = added_damping_1 + part_25;
     // B* between the joints
     const scalar wanted_12 = x_by_q1 * x_by_q2 - y_by_q1 * y_by_q2;
-    // τ = Σ g M + (B* − D) v
+    // τ = Σ ∂w/∂q M + (B* − D) v
     const scalar torque_1 = (wanted_11 - part_23) * v1 + wanted_12 * v2 - (x_by_q1 * across_force +
         y_by_q1 * out_force);
     const scalar torque_2 = y_by_q2 * out_force - x_by_q2 * across_force + (wanted_12 * v1 +
@@ -334,13 +334,13 @@ class kelvin_field {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // V = ½ k0 u² + Σ F_i²/(2 k_i)
     const scalar across_stored = across_half_static_stiffness * across_last_position_ * across_last_position_;
     // V = ½ k0 u² + Σ F_i²/(2 k_i)
     const scalar out_stored = out_half_static_stiffness * out_last_position_ * out_last_position_;
-    // V of all ports
+    // Σ V of all ports
     const scalar stored = across_stored + out_stored;
     return stored;
   }
@@ -354,40 +354,40 @@ class kelvin_field {
   static constexpr scalar base = 0.025;  // distance of the motor axes [m]
   static constexpr scalar proximal_link = 0.063;  // length of the link at the motor [m]
   static constexpr scalar root_of_half = 0.7071067811865476;  // √½ [1]
-  static constexpr scalar eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, its first digits [rad]
-  static constexpr scalar eighth_turns_3_rest = 9.115650759759289e-11;  // a multiple of π/4, what is left of it [rad]
-  static constexpr scalar sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
-  static constexpr scalar sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
-  static constexpr scalar sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
-  static constexpr scalar sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
-  static constexpr scalar sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
-  static constexpr scalar sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
-  static constexpr scalar sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
-  static constexpr scalar sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
-  static constexpr scalar cosine_term_8 = 4.608977003001797e-14;  // of the polynomial in r² [1/rad^16]
-  static constexpr scalar cosine_term_7 = 1.1462901901757276e-11;  // of the polynomial in r² [1/rad^14]
-  static constexpr scalar cosine_term_6 = 2.0876561839933163e-09;  // of the polynomial in r² [1/rad^12]
-  static constexpr scalar cosine_term_5 = 2.755731639102575e-07;  // of the polynomial in r² [1/rad^10]
-  static constexpr scalar cosine_term_4 = 2.4801587277414926e-05;  // of the polynomial in r² [1/rad^8]
-  static constexpr scalar cosine_term_3 = 0.001388888888877299;  // of the polynomial in r² [1/rad^6]
-  static constexpr scalar cosine_term_2 = 0.04166666666666388;  // of the polynomial in r² [1/rad^4]
-  static constexpr scalar cosine_term_1 = 0.4999999999999997;  // of the polynomial in r² [1/rad^2]
+  static constexpr scalar eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, rounded [rad]
+  static constexpr scalar eighth_turns_3_rest = 9.115650759759289e-11;  // what rounding took from that multiple of π/4 [rad]
+  static constexpr scalar sine_term_6 = 1.6048168318165643e-10;  // coefficient of the polynomial in r² [1/rad^12]
+  static constexpr scalar sine_term_7 = 7.374387503862757e-13;  // coefficient of the polynomial in r² [1/rad^14]
+  static constexpr scalar sine_term_5 = 2.505188194671259e-08;  // coefficient of the polynomial in r² [1/rad^10]
+  static constexpr scalar sine_term_4 = 2.7557316609073673e-06;  // coefficient of the polynomial in r² [1/rad^8]
+  static constexpr scalar sine_term_3 = 0.00019841269824861897;  // coefficient of the polynomial in r² [1/rad^6]
+  static constexpr scalar sine_term_2 = 0.008333333333282756;  // coefficient of the polynomial in r² [1/rad^4]
+  static constexpr scalar sine_term_1 = 0.16666666666666072;  // coefficient of the polynomial in r² [1/rad^2]
+  static constexpr scalar sine_term_0 = 0.9999999999999999;  // coefficient of the polynomial in r² [1]
+  static constexpr scalar cosine_term_8 = 4.608977003001797e-14;  // coefficient of the polynomial in r² [1/rad^16]
+  static constexpr scalar cosine_term_7 = 1.1462901901757276e-11;  // coefficient of the polynomial in r² [1/rad^14]
+  static constexpr scalar cosine_term_6 = 2.0876561839933163e-09;  // coefficient of the polynomial in r² [1/rad^12]
+  static constexpr scalar cosine_term_5 = 2.755731639102575e-07;  // coefficient of the polynomial in r² [1/rad^10]
+  static constexpr scalar cosine_term_4 = 2.4801587277414926e-05;  // coefficient of the polynomial in r² [1/rad^8]
+  static constexpr scalar cosine_term_3 = 0.001388888888877299;  // coefficient of the polynomial in r² [1/rad^6]
+  static constexpr scalar cosine_term_2 = 0.04166666666666388;  // coefficient of the polynomial in r² [1/rad^4]
+  static constexpr scalar cosine_term_1 = 0.4999999999999997;  // coefficient of the polynomial in r² [1/rad^2]
   static constexpr scalar one = 1.0;  // 1 [1]
-  static constexpr scalar eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, its first digits [rad]
-  static constexpr scalar eighth_turns_1_rest = 3.038550253253096e-11;  // a multiple of π/4, what is left of it [rad]
-  static constexpr scalar distal_link_squared = 0.005625;  // square of that [m²]
+  static constexpr scalar eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, rounded [rad]
+  static constexpr scalar eighth_turns_1_rest = 3.038550253253096e-11;  // what rounding took from that multiple of π/4 [rad]
+  static constexpr scalar distal_link_squared = 0.005625;  // square of the length of the link at the tip [m²]
   static constexpr scalar quarter = 0.25;  // 1/4 [1]
-  static constexpr scalar half_base = 0.0125;  // half of that [m]
-  static constexpr scalar out_offset = 0.1;  // of the plane from the origin [m]
-  static constexpr scalar most_damping_1 = 0.00953851439782406;  // that the brake gives, less what is added [N·m·s/rad]
-  static constexpr scalar added_damping_1 = 0.0044614856021759405;  // for passivity alone [N·m·s/rad]
+  static constexpr scalar half_base = 0.0125;  // half the distance of the motor axes [m]
+  static constexpr scalar out_offset = 0.1;  // distance of the plane from the origin [m]
+  static constexpr scalar most_damping_1 = 0.00953851439782406;  // largest damping of the brake, less what is added [N·m·s/rad]
+  static constexpr scalar added_damping_1 = 0.0044614856021759405;  // added to the brake's command for passivity [N·m·s/rad]
 
   scalar across_last_position_ = 0.06299999990746864;  // u of the sample before [m]
   scalar across_sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar out_last_position_ = -0.026049002726895476;  // u of the sample before [m]
   scalar out_sampled_position_ = 0;  // port displacement u, at this sample [m]
-  scalar sampled_damping_1_ = 0;  // of brake 1, at this sample [N·m·s/rad]
-  scalar sampled_damping_2_ = 0;  // of brake 2, at this sample [N·m·s/rad]
+  scalar sampled_damping_1_ = 0;  // damping of brake 1, at this sample [N·m·s/rad]
+  scalar sampled_damping_2_ = 0;  // damping of brake 2, at this sample [N·m·s/rad]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -5,7 +5,7 @@
 // port ball: behind the map 'ball', pushed and never pulled; b = 0.5 N·s/m by the rule 'paper'
 // kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16, of joints that stay within
 //   their encoders' ranges
-// scheme: exact at 10000 Hz, double; what is kept of the past follows the measured position
+// scheme: exact at 10000 Hz, double; what the law remembers follows the measured position
 // brakes: by the rule 'diagonal' each brake makes the damping of its joint, and the motors the forces by which one
 //   joint's velocity acts on the other
 // share: of the ports' damping the brakes make 109 % in the median over the workspace, 71.1 % at least, at (-1,
@@ -25,8 +25,8 @@
 // cost of output(): 78 additions, 91 multiplications, 9 selections, 1 guard against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 0 selections, 1 guard against subnormal numbers
 // words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has
-//   gone into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what
-//   gives the hand no more energy than it got; certified, what is proved to be passive
+//   gone into what the network resists; B* is the damping that all ports ask for, as a matrix over the joints.
+//   Passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 92763b4e7d88c80643bd40e5f80871202c4447194ad7f18354069871e6f22289. It belongs to whoever had it
@@ -46,7 +46,7 @@ class soft_ball {
   static constexpr scalar sample_period = 0.0001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::rotation;  // of the joints
 
-  // Of each brake's command the part that is there for passivity alone [N·m·s/rad].
+  // The part of each brake's command that was added for passivity [N·m·s/rad].
   static constexpr scalar added_damping[brakes] = {0.013980000000000001, 0.013980000000000001};
 
   // What the servo loop compares with the device that it drives.
@@ -61,12 +61,12 @@ class soft_ball {
 
   struct parameters {};
 
-  // At rest with the joints at `position` [rad], springs relaxed but for the static load. A NaN or infinite
-  // position counts as 0.
+  // Starts at rest with the joints at `position` [rad]: only the springs that hold a force at rest are loaded. A
+  // NaN or infinite position counts as 0.
   void reset(const scalar (&position)[axes] = {}) noexcept {
     const scalar q1 = dashpot::all_finite(position[0]) ? position[0] : 0;
     const scalar q2 = dashpot::all_finite(position[1]) ? position[1] : 0;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
@@ -79,7 +79,7 @@ class soft_ball {
     // −cos θ
     const scalar cosine_1 = root_of_half * (part_1 + part_2);
     const scalar part_3 = proximal_link * cosine_1;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
@@ -126,7 +126,7 @@ class soft_ball {
   dashpot::commands<scalar, axes, brakes> output(const scalar (&position)[axes],
                                                  const scalar (&velocity)[axes]) noexcept {
     const scalar q1 = position[0], q2 = position[1], v1 = velocity[0], v2 = velocity[1];
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
@@ -139,7 +139,7 @@ class soft_ball {
     // −cos θ
     const scalar cosine_1 = root_of_half * (part_1 + part_2);
     const scalar part_3 = proximal_link * cosine_1;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
@@ -198,15 +198,15 @@ class soft_ball {
     const scalar y_by_q2 = part_15 * part_28;
     // ∂w/∂q2
     const scalar ball_by_q2 = x_by_q2 * part_25 - y_by_q2 * part_27;
-    // ẇ = g·v
+    // ẇ = Σ ∂w/∂q v
     const scalar ball_velocity = ball_by_q1 * v1 + ball_by_q2 * v2;
     // Δ = u − s₋
     const scalar ball_approach = ball_position - ball_surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar ball_held_force = ball_static_stiffness * ball_surface_ + ball_spring_3_damper_4_force_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar ball_surface_recovery = ball_recovery_compliance * ball_held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar ball_surface_change = ball_surface_recovery - ball_approach > 0 ? ball_surface_recovery :
         ball_approach;
     // gap = s − u
@@ -229,7 +229,7 @@ class soft_ball {
     const scalar wanted_11 = ball_brake * (ball_by_q1 * ball_by_q1);
     const scalar part_29 = wanted_11 > 0 ? wanted_11 : nothing;
     const scalar part_30 = most_damping_1 - part_29 > 0 ? part_29 : most_damping_1;
-    // D of B*
+    // D, what the brakes make of B*
     const scalar damping_1 = part_30 + added_damping_1;
     // B* of joint 2
     const scalar wanted_22 = ball_brake * (ball_by_q2 * ball_by_q2);
@@ -238,7 +238,7 @@ class soft_ball {
     const scalar damping_2 = added_damping_1 + part_32;
     // B* between the joints
     const scalar wanted_12 = ball_brake * (ball_by_q1 * ball_by_q2);
-    // τ = Σ g M + (B* − D) v
+    // τ = Σ ∂w/∂q M + (B* − D) v
     const scalar torque_1 = ball_by_q1 * ball_force + (v1 * (wanted_11 - part_30) + wanted_12 * v2);
     const scalar torque_2 = ball_by_q2 * ball_force + (wanted_12 * v1 + v2 * (wanted_22 - part_32));
     sampled_ = false;
@@ -251,7 +251,7 @@ class soft_ball {
     return {{damping_1, damping_2}, {torque_1, torque_2}};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -262,11 +262,11 @@ class soft_ball {
     ball_surface_ = ball_sampled_surface_now_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::commands<scalar, axes, brakes> step(const scalar (&position)[axes],
                                                const scalar (&velocity)[axes]) noexcept {
     const scalar q1 = position[0], q2 = position[1], v1 = velocity[0], v2 = velocity[1];
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
@@ -279,7 +279,7 @@ class soft_ball {
     // −cos θ
     const scalar cosine_1 = root_of_half * (part_1 + part_2);
     const scalar part_3 = proximal_link * cosine_1;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
@@ -338,15 +338,15 @@ class soft_ball {
     const scalar y_by_q2 = part_15 * part_28;
     // ∂w/∂q2
     const scalar ball_by_q2 = x_by_q2 * part_25 - y_by_q2 * part_27;
-    // ẇ = g·v
+    // ẇ = Σ ∂w/∂q v
     const scalar ball_velocity = ball_by_q1 * v1 + ball_by_q2 * v2;
     // Δ = u − s₋
     const scalar ball_approach = ball_position - ball_surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar ball_held_force = ball_static_stiffness * ball_surface_ + ball_spring_3_damper_4_force_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar ball_surface_recovery = ball_recovery_compliance * ball_held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar ball_surface_change = ball_surface_recovery - ball_approach > 0 ? ball_surface_recovery :
         ball_approach;
     // gap = s − u
@@ -369,7 +369,7 @@ class soft_ball {
     const scalar wanted_11 = ball_brake * (ball_by_q1 * ball_by_q1);
     const scalar part_29 = wanted_11 > 0 ? wanted_11 : nothing;
     const scalar part_30 = most_damping_1 - part_29 > 0 ? part_29 : most_damping_1;
-    // D of B*
+    // D, what the brakes make of B*
     const scalar damping_1 = part_30 + added_damping_1;
     // B* of joint 2
     const scalar wanted_22 = ball_brake * (ball_by_q2 * ball_by_q2);
@@ -378,7 +378,7 @@ class soft_ball {
     const scalar damping_2 = added_damping_1 + part_32;
     // B* between the joints
     const scalar wanted_12 = ball_brake * (ball_by_q1 * ball_by_q2);
-    // τ = Σ g M + (B* − D) v
+    // τ = Σ ∂w/∂q M + (B* − D) v
     const scalar torque_1 = ball_by_q1 * ball_force + (v1 * (wanted_11 - part_30) + wanted_12 * v2);
     const scalar torque_2 = ball_by_q2 * ball_force + (wanted_12 * v1 + v2 * (wanted_22 - part_32));
     if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) {
@@ -399,7 +399,7 @@ class soft_ball {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar ball_spring_3_damper_4_energy = ball_spring_3_damper_4_energy_weight *
@@ -407,7 +407,7 @@ class soft_ball {
     // V = ½ k0 u² + Σ F_i²/(2 k_i)
     const scalar ball_stored = ball_half_static_stiffness * ball_surface_ * ball_surface_ +
         ball_spring_3_damper_4_energy;
-    // V of all ports
+    // Σ V of all ports
     const scalar stored = ball_stored;
     return stored;
   }
@@ -415,56 +415,56 @@ class soft_ball {
  private:
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar ball_static_stiffness = 200.0;  // k0 [N/m]
-  static constexpr scalar ball_none = 0.0;  // of a free tool [N]
+  static constexpr scalar ball_none = 0.0;  // no force on a free tool [N]
   static constexpr scalar ball_recovery_compliance = -0.0001886801351353414;  // −1/g [m/N]
-  static constexpr scalar ball_step_stiffness = 99.97500416614588;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar ball_step_stiffness = 99.97500416614588;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar ball_feedthrough = 0.5;  // b∞ [N·s/m]
   static constexpr scalar ball_contact_damping = 0.5;  // b while the tool touches [N·s/m]
   static constexpr scalar ball_spring_3_damper_4_gain = 99.92502915885578;  // a c [N/m]
   static constexpr scalar ball_spring_3_damper_4_decay = 0.9995001249791693;  // a = e^{−λh} [1]
   static constexpr scalar ball_half_static_stiffness = 100.0;  // ½ k0 [N/m]
   static constexpr scalar ball_spring_3_damper_4_energy_weight = 0.005005002500833542;  // 1/(2 k a²) [m/N]
-  static constexpr scalar ball_radius = 0.03;  // of the circle [m]
+  static constexpr scalar ball_radius = 0.03;  // radius of the circle [m]
   static constexpr scalar half = 0.5;  // 1/2 [1]
   static constexpr scalar base = 0.025;  // distance of the motor axes [m]
   static constexpr scalar proximal_link = 0.063;  // length of the link at the motor [m]
   static constexpr scalar root_of_half = 0.7071067811865476;  // √½ [1]
-  static constexpr scalar eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, its first digits [rad]
-  static constexpr scalar eighth_turns_3_rest = 9.115650759759289e-11;  // a multiple of π/4, what is left of it [rad]
-  static constexpr scalar sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
-  static constexpr scalar sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
-  static constexpr scalar sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
-  static constexpr scalar sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
-  static constexpr scalar sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
-  static constexpr scalar sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
-  static constexpr scalar sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
-  static constexpr scalar sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
-  static constexpr scalar cosine_term_8 = 4.608977003001797e-14;  // of the polynomial in r² [1/rad^16]
-  static constexpr scalar cosine_term_7 = 1.1462901901757276e-11;  // of the polynomial in r² [1/rad^14]
-  static constexpr scalar cosine_term_6 = 2.0876561839933163e-09;  // of the polynomial in r² [1/rad^12]
-  static constexpr scalar cosine_term_5 = 2.755731639102575e-07;  // of the polynomial in r² [1/rad^10]
-  static constexpr scalar cosine_term_4 = 2.4801587277414926e-05;  // of the polynomial in r² [1/rad^8]
-  static constexpr scalar cosine_term_3 = 0.001388888888877299;  // of the polynomial in r² [1/rad^6]
-  static constexpr scalar cosine_term_2 = 0.04166666666666388;  // of the polynomial in r² [1/rad^4]
-  static constexpr scalar cosine_term_1 = 0.4999999999999997;  // of the polynomial in r² [1/rad^2]
+  static constexpr scalar eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, rounded [rad]
+  static constexpr scalar eighth_turns_3_rest = 9.115650759759289e-11;  // what rounding took from that multiple of π/4 [rad]
+  static constexpr scalar sine_term_6 = 1.6048168318165643e-10;  // coefficient of the polynomial in r² [1/rad^12]
+  static constexpr scalar sine_term_7 = 7.374387503862757e-13;  // coefficient of the polynomial in r² [1/rad^14]
+  static constexpr scalar sine_term_5 = 2.505188194671259e-08;  // coefficient of the polynomial in r² [1/rad^10]
+  static constexpr scalar sine_term_4 = 2.7557316609073673e-06;  // coefficient of the polynomial in r² [1/rad^8]
+  static constexpr scalar sine_term_3 = 0.00019841269824861897;  // coefficient of the polynomial in r² [1/rad^6]
+  static constexpr scalar sine_term_2 = 0.008333333333282756;  // coefficient of the polynomial in r² [1/rad^4]
+  static constexpr scalar sine_term_1 = 0.16666666666666072;  // coefficient of the polynomial in r² [1/rad^2]
+  static constexpr scalar sine_term_0 = 0.9999999999999999;  // coefficient of the polynomial in r² [1]
+  static constexpr scalar cosine_term_8 = 4.608977003001797e-14;  // coefficient of the polynomial in r² [1/rad^16]
+  static constexpr scalar cosine_term_7 = 1.1462901901757276e-11;  // coefficient of the polynomial in r² [1/rad^14]
+  static constexpr scalar cosine_term_6 = 2.0876561839933163e-09;  // coefficient of the polynomial in r² [1/rad^12]
+  static constexpr scalar cosine_term_5 = 2.755731639102575e-07;  // coefficient of the polynomial in r² [1/rad^10]
+  static constexpr scalar cosine_term_4 = 2.4801587277414926e-05;  // coefficient of the polynomial in r² [1/rad^8]
+  static constexpr scalar cosine_term_3 = 0.001388888888877299;  // coefficient of the polynomial in r² [1/rad^6]
+  static constexpr scalar cosine_term_2 = 0.04166666666666388;  // coefficient of the polynomial in r² [1/rad^4]
+  static constexpr scalar cosine_term_1 = 0.4999999999999997;  // coefficient of the polynomial in r² [1/rad^2]
   static constexpr scalar one = 1.0;  // 1 [1]
-  static constexpr scalar eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, its first digits [rad]
-  static constexpr scalar eighth_turns_1_rest = 3.038550253253096e-11;  // a multiple of π/4, what is left of it [rad]
-  static constexpr scalar distal_link_squared = 0.005625;  // square of that [m²]
+  static constexpr scalar eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, rounded [rad]
+  static constexpr scalar eighth_turns_1_rest = 3.038550253253096e-11;  // what rounding took from that multiple of π/4 [rad]
+  static constexpr scalar distal_link_squared = 0.005625;  // square of the length of the link at the tip [m²]
   static constexpr scalar quarter = 0.25;  // 1/4 [1]
-  static constexpr scalar half_base = 0.0125;  // half of that [m]
-  static constexpr scalar ball_centre_y = 0.14;  // of the circle [m]
-  static constexpr scalar blunting_squared = 1.e-18;  // keeps the distance from zero [m²]
-  static constexpr scalar most_damping_1 = 1.9999999999999185e-05;  // that the brake gives, less what is added [N·m·s/rad]
+  static constexpr scalar half_base = 0.0125;  // half the distance of the motor axes [m]
+  static constexpr scalar ball_centre_y = 0.14;  // y of the circle's centre [m]
+  static constexpr scalar blunting_squared = 1.e-18;  // keeps the distance above zero [m²]
+  static constexpr scalar most_damping_1 = 1.9999999999999185e-05;  // largest damping of the brake, less what is added [N·m·s/rad]
   static constexpr scalar nothing = 0.0;  // 0 [1]
-  static constexpr scalar added_damping_1 = 0.013980000000000001;  // for passivity alone [N·m·s/rad]
+  static constexpr scalar added_damping_1 = 0.013980000000000001;  // added to the brake's command for passivity [N·m·s/rad]
 
   scalar ball_surface_ = 0;  // s, how far the surface is pushed in [m]
   scalar ball_spring_3_damper_4_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar ball_sampled_surface_change_ = 0;  // Δs since the sample before, at this sample [m]
   scalar ball_sampled_surface_now_ = 0;  // s, at this sample [m]
-  scalar sampled_damping_1_ = 0;  // of brake 1, at this sample [N·m·s/rad]
-  scalar sampled_damping_2_ = 0;  // of brake 2, at this sample [N·m·s/rad]
+  scalar sampled_damping_1_ = 0;  // damping of brake 1, at this sample [N·m·s/rad]
+  scalar sampled_damping_2_ = 0;  // damping of brake 2, at this sample [N·m·s/rad]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

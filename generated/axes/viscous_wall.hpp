@@ -4,7 +4,7 @@
 // port wall: behind the map 'wall', pushed and never pulled; b = 1 N·s/m by the rule 'paper'
 // kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16, of joints that stay within
 //   their encoders' ranges
-// scheme: exact at 10000 Hz, double; what is kept of the past follows the measured position
+// scheme: exact at 10000 Hz, double; what the law remembers follows the measured position
 // brakes: by the rule 'diagonal' each brake makes the damping of its joint, and the motors the forces by which one
 //   joint's velocity acts on the other
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 98.4 % at least, at (-1,
@@ -24,8 +24,8 @@
 // cost of output(): 74 additions, 90 multiplications, 9 selections, 1 guard against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
 // words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has
-//   gone into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what
-//   gives the hand no more energy than it got; certified, what is proved to be passive
+//   gone into what the network resists; B* is the damping that all ports ask for, as a matrix over the joints.
+//   Passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 313db2f3ea0d3ea441f28ef461fa1972530efb0b1734278509e10e23412eea9d. It belongs to whoever had it
@@ -45,7 +45,7 @@ class viscous_wall {
   static constexpr scalar sample_period = 0.0001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::rotation;  // of the joints
 
-  // Of each brake's command the part that is there for passivity alone [N·m·s/rad].
+  // The part of each brake's command that was added for passivity [N·m·s/rad].
   static constexpr scalar added_damping[brakes] = {0.013980000000000001, 0.013980000000000001};
 
   // What the servo loop compares with the device that it drives.
@@ -60,12 +60,12 @@ class viscous_wall {
 
   struct parameters {};
 
-  // At rest with the joints at `position` [rad], springs relaxed but for the static load. A NaN or infinite
-  // position counts as 0.
+  // Starts at rest with the joints at `position` [rad]: only the springs that hold a force at rest are loaded. A
+  // NaN or infinite position counts as 0.
   void reset(const scalar (&position)[axes] = {}) noexcept {
     const scalar q1 = dashpot::all_finite(position[0]) ? position[0] : 0;
     const scalar q2 = dashpot::all_finite(position[1]) ? position[1] : 0;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
@@ -78,7 +78,7 @@ class viscous_wall {
     // sin θ
     const scalar sine_1 = root_of_half * (part_1 - part_2);
     const scalar part_3 = proximal_link * sine_1;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
@@ -117,7 +117,7 @@ class viscous_wall {
   dashpot::commands<scalar, axes, brakes> output(const scalar (&position)[axes],
                                                  const scalar (&velocity)[axes]) noexcept {
     const scalar q1 = position[0], q2 = position[1], v1 = velocity[0], v2 = velocity[1];
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
@@ -130,7 +130,7 @@ class viscous_wall {
     // sin θ
     const scalar sine_1 = root_of_half * (part_1 - part_2);
     const scalar part_3 = proximal_link * sine_1;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
@@ -174,15 +174,15 @@ class viscous_wall {
     const scalar part_23 = part_19 * (part_3 * part_18 + part_9 * part_15);
     // −∂y/∂q1
     const scalar y_by_q1 = part_23 * part_20;
-    // ẇ = g·v
+    // ẇ = Σ ∂w/∂q v
     const scalar wall_velocity = y_by_q2 * v2 - y_by_q1 * v1;
     // Δ = u − s₋
     const scalar wall_approach = wall_position - wall_surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar wall_held_force = wall_static_stiffness * wall_surface_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar wall_surface_recovery = wall_recovery_compliance * wall_held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar wall_surface_change = wall_surface_recovery - wall_approach > 0 ? wall_surface_recovery :
         wall_approach;
     // gap = s − u
@@ -207,7 +207,7 @@ class viscous_wall {
         wall_brake * (y_by_q1 * y_by_q1);
     const scalar part_24 = wanted_11 > 0 ? wanted_11 : nothing;
     const scalar part_25 = most_damping_1 - part_24 > 0 ? part_24 : most_damping_1;
-    // D of B*
+    // D, what the brakes make of B*
     const scalar damping_1 = part_25 + added_damping_1;
     // −∂x/∂q2
     const scalar x_by_q2 = part_15 * part_22;
@@ -220,7 +220,7 @@ class viscous_wall {
     const scalar damping_2 = added_damping_1 + part_29;
     // B* between the joints
     const scalar wanted_12 = x_by_q1 * part_26 - y_by_q1 * part_27 - wall_brake * (y_by_q1 * y_by_q2);
-    // τ = Σ g M + (B* − D) v
+    // τ = Σ ∂w/∂q M + (B* − D) v
     const scalar torque_1 = v1 * (wanted_11 - part_25) + wanted_12 * v2 - y_by_q1 * wall_force;
     const scalar torque_2 = y_by_q2 * wall_force + (wanted_12 * v1 + v2 * (wanted_22 - part_29));
     sampled_ = false;
@@ -232,7 +232,7 @@ class viscous_wall {
     return {{damping_1, damping_2}, {torque_1, torque_2}};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -240,11 +240,11 @@ class viscous_wall {
     wall_surface_ = wall_sampled_surface_now_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::commands<scalar, axes, brakes> step(const scalar (&position)[axes],
                                                const scalar (&velocity)[axes]) noexcept {
     const scalar q1 = position[0], q2 = position[1], v1 = velocity[0], v2 = velocity[1];
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
@@ -257,7 +257,7 @@ class viscous_wall {
     // sin θ
     const scalar sine_1 = root_of_half * (part_1 - part_2);
     const scalar part_3 = proximal_link * sine_1;
-    // r, from a multiple of π/4
+    // r = θ − a multiple of π/4
     const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
@@ -301,15 +301,15 @@ class viscous_wall {
     const scalar part_23 = part_19 * (part_3 * part_18 + part_9 * part_15);
     // −∂y/∂q1
     const scalar y_by_q1 = part_23 * part_20;
-    // ẇ = g·v
+    // ẇ = Σ ∂w/∂q v
     const scalar wall_velocity = y_by_q2 * v2 - y_by_q1 * v1;
     // Δ = u − s₋
     const scalar wall_approach = wall_position - wall_surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar wall_held_force = wall_static_stiffness * wall_surface_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar wall_surface_recovery = wall_recovery_compliance * wall_held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar wall_surface_change = wall_surface_recovery - wall_approach > 0 ? wall_surface_recovery :
         wall_approach;
     // gap = s − u
@@ -334,7 +334,7 @@ class viscous_wall {
         wall_brake * (y_by_q1 * y_by_q1);
     const scalar part_24 = wanted_11 > 0 ? wanted_11 : nothing;
     const scalar part_25 = most_damping_1 - part_24 > 0 ? part_24 : most_damping_1;
-    // D of B*
+    // D, what the brakes make of B*
     const scalar damping_1 = part_25 + added_damping_1;
     // −∂x/∂q2
     const scalar x_by_q2 = part_15 * part_22;
@@ -347,7 +347,7 @@ class viscous_wall {
     const scalar damping_2 = added_damping_1 + part_29;
     // B* between the joints
     const scalar wanted_12 = x_by_q1 * part_26 - y_by_q1 * part_27 - wall_brake * (y_by_q1 * y_by_q2);
-    // τ = Σ g M + (B* − D) v
+    // τ = Σ ∂w/∂q M + (B* − D) v
     const scalar torque_1 = v1 * (wanted_11 - part_25) + wanted_12 * v2 - y_by_q1 * wall_force;
     const scalar torque_2 = y_by_q2 * wall_force + (wanted_12 * v1 + v2 * (wanted_22 - part_29));
     if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) {
@@ -365,11 +365,11 @@ class viscous_wall {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // V = ½ k0 u² + Σ F_i²/(2 k_i)
     const scalar wall_stored = wall_half_static_stiffness * wall_surface_ * wall_surface_;
-    // V of all ports
+    // Σ V of all ports
     const scalar stored = wall_stored;
     return stored;
   }
@@ -377,48 +377,48 @@ class viscous_wall {
  private:
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar wall_static_stiffness = 300.0;  // k0 [N/m]
-  static constexpr scalar wall_none = 0.0;  // of a free tool [N]
+  static constexpr scalar wall_none = 0.0;  // no force on a free tool [N]
   static constexpr scalar wall_recovery_compliance = -9.70873786407767e-05;  // −1/g [m/N]
   static constexpr scalar wall_feedthrough = 1.0;  // b∞ [N·s/m]
   static constexpr scalar wall_contact_damping = 1.0;  // b while the tool touches [N·s/m]
   static constexpr scalar wall_half_static_stiffness = 150.0;  // ½ k0 [N/m]
   static constexpr scalar proximal_link = 0.063;  // length of the link at the motor [m]
   static constexpr scalar root_of_half = 0.7071067811865476;  // √½ [1]
-  static constexpr scalar eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, its first digits [rad]
-  static constexpr scalar eighth_turns_3_rest = 9.115650759759289e-11;  // a multiple of π/4, what is left of it [rad]
-  static constexpr scalar cosine_term_8 = 4.608977003001797e-14;  // of the polynomial in r² [1/rad^16]
-  static constexpr scalar cosine_term_7 = 1.1462901901757276e-11;  // of the polynomial in r² [1/rad^14]
-  static constexpr scalar cosine_term_6 = 2.0876561839933163e-09;  // of the polynomial in r² [1/rad^12]
-  static constexpr scalar cosine_term_5 = 2.755731639102575e-07;  // of the polynomial in r² [1/rad^10]
-  static constexpr scalar cosine_term_4 = 2.4801587277414926e-05;  // of the polynomial in r² [1/rad^8]
-  static constexpr scalar cosine_term_3 = 0.001388888888877299;  // of the polynomial in r² [1/rad^6]
-  static constexpr scalar cosine_term_2 = 0.04166666666666388;  // of the polynomial in r² [1/rad^4]
-  static constexpr scalar cosine_term_1 = 0.4999999999999997;  // of the polynomial in r² [1/rad^2]
+  static constexpr scalar eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, rounded [rad]
+  static constexpr scalar eighth_turns_3_rest = 9.115650759759289e-11;  // what rounding took from that multiple of π/4 [rad]
+  static constexpr scalar cosine_term_8 = 4.608977003001797e-14;  // coefficient of the polynomial in r² [1/rad^16]
+  static constexpr scalar cosine_term_7 = 1.1462901901757276e-11;  // coefficient of the polynomial in r² [1/rad^14]
+  static constexpr scalar cosine_term_6 = 2.0876561839933163e-09;  // coefficient of the polynomial in r² [1/rad^12]
+  static constexpr scalar cosine_term_5 = 2.755731639102575e-07;  // coefficient of the polynomial in r² [1/rad^10]
+  static constexpr scalar cosine_term_4 = 2.4801587277414926e-05;  // coefficient of the polynomial in r² [1/rad^8]
+  static constexpr scalar cosine_term_3 = 0.001388888888877299;  // coefficient of the polynomial in r² [1/rad^6]
+  static constexpr scalar cosine_term_2 = 0.04166666666666388;  // coefficient of the polynomial in r² [1/rad^4]
+  static constexpr scalar cosine_term_1 = 0.4999999999999997;  // coefficient of the polynomial in r² [1/rad^2]
   static constexpr scalar one = 1.0;  // 1 [1]
-  static constexpr scalar sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
-  static constexpr scalar sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
-  static constexpr scalar sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
-  static constexpr scalar sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
-  static constexpr scalar sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
-  static constexpr scalar sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
-  static constexpr scalar sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
-  static constexpr scalar sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
+  static constexpr scalar sine_term_6 = 1.6048168318165643e-10;  // coefficient of the polynomial in r² [1/rad^12]
+  static constexpr scalar sine_term_7 = 7.374387503862757e-13;  // coefficient of the polynomial in r² [1/rad^14]
+  static constexpr scalar sine_term_5 = 2.505188194671259e-08;  // coefficient of the polynomial in r² [1/rad^10]
+  static constexpr scalar sine_term_4 = 2.7557316609073673e-06;  // coefficient of the polynomial in r² [1/rad^8]
+  static constexpr scalar sine_term_3 = 0.00019841269824861897;  // coefficient of the polynomial in r² [1/rad^6]
+  static constexpr scalar sine_term_2 = 0.008333333333282756;  // coefficient of the polynomial in r² [1/rad^4]
+  static constexpr scalar sine_term_1 = 0.16666666666666072;  // coefficient of the polynomial in r² [1/rad^2]
+  static constexpr scalar sine_term_0 = 0.9999999999999999;  // coefficient of the polynomial in r² [1]
   static constexpr scalar half = 0.5;  // 1/2 [1]
-  static constexpr scalar eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, its first digits [rad]
-  static constexpr scalar eighth_turns_1_rest = 3.038550253253096e-11;  // a multiple of π/4, what is left of it [rad]
+  static constexpr scalar eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, rounded [rad]
+  static constexpr scalar eighth_turns_1_rest = 3.038550253253096e-11;  // what rounding took from that multiple of π/4 [rad]
   static constexpr scalar base = 0.025;  // distance of the motor axes [m]
-  static constexpr scalar distal_link_squared = 0.005625;  // square of that [m²]
+  static constexpr scalar distal_link_squared = 0.005625;  // square of the length of the link at the tip [m²]
   static constexpr scalar quarter = 0.25;  // 1/4 [1]
-  static constexpr scalar wall_offset = 0.11;  // of the plane from the origin [m]
-  static constexpr scalar most_damping_1 = 1.9999999999999185e-05;  // that the brake gives, less what is added [N·m·s/rad]
-  static constexpr scalar number_1 = 1.5;  // of the geometry []
+  static constexpr scalar wall_offset = 0.11;  // distance of the plane from the origin [m]
+  static constexpr scalar most_damping_1 = 1.9999999999999185e-05;  // largest damping of the brake, less what is added [N·m·s/rad]
+  static constexpr scalar number_1 = 1.5;  // number of the geometry []
   static constexpr scalar nothing = 0.0;  // 0 [1]
-  static constexpr scalar added_damping_1 = 0.013980000000000001;  // for passivity alone [N·m·s/rad]
+  static constexpr scalar added_damping_1 = 0.013980000000000001;  // added to the brake's command for passivity [N·m·s/rad]
 
   scalar wall_surface_ = 0;  // s, how far the surface is pushed in [m]
   scalar wall_sampled_surface_now_ = 0;  // s, at this sample [m]
-  scalar sampled_damping_1_ = 0;  // of brake 1, at this sample [N·m·s/rad]
-  scalar sampled_damping_2_ = 0;  // of brake 2, at this sample [N·m·s/rad]
+  scalar sampled_damping_1_ = 0;  // damping of brake 1, at this sample [N·m·s/rad]
+  scalar sampled_damping_2_ = 0;  // damping of brake 2, at this sample [N·m·s/rad]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -3,10 +3,10 @@
 // source: beyond Gosline & Hayward 2009, whose Fig. 10 has one; values chosen here
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
-// brake: makes the damping that follows of each slip, and the motor the rest of the force
+// brake: makes the damping that the next lines give for each slip, and the motor the rest of the force
 // behind Y1; Y2; Y3; Y4 and 6 more: velocity-free, the only damping of what slides is at the tool; b = 0 N·s/m
 //   stuck, 0 sliding
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -15,16 +15,16 @@
 //   at least 0 N·s/m is there, 0.775 N·s/m more is missing in the brake's command
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
-//   rounding adds at most 3.9e-15 of the sum of the force's terms
+// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
+//   energy; rounding adds at most 3.9e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 20 additions, 10 multiplications, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 10 guards against subnormal numbers; 23 numbers kept between
 //   samples
 // loops: laid out for registers of 16 bytes; sums in 8 parts, the same bits on every machine
 // rounding: the force of a mode is off by at most 5.6e-16 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -43,7 +43,7 @@ class maxwell_slip_ten {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -58,7 +58,8 @@ class maxwell_slip_ten {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     clear(K1_spring_force_);
@@ -79,10 +80,10 @@ class maxwell_slip_ten {
     for (int i = 0; i < 16; i += 8)
       DASHPOT_UNROLL
       for (int j = i; j < i + 8; j += vector::width) {
-        // t = stuck trial
+        // trial = force of the slip if it held
         const vector Y1_trial = vector::at(Y1_trial_by_change, j) * position_change +
             vector::at(K1_spring_force_, j);
-        vector::put(Y1_slip, j, vector::clamp_to(vector::at(Y1_yield, j), Y1_trial));  // s = clamp(t, ±Y)
+        vector::put(Y1_slip, j, vector::clamp_to(vector::at(Y1_yield, j), Y1_trial));  // slip = clamp(trial, ±Y)
         lane.add(j - i, vector::at(Y1_slip, j));
       }
     const scalar Y1_force_sum = lane.total();
@@ -101,7 +102,7 @@ class maxwell_slip_ten {
     return {damping, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -116,7 +117,7 @@ class maxwell_slip_ten {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();
@@ -126,7 +127,7 @@ class maxwell_slip_ten {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 8>, 16>;
     dashpot::partial_sums<vector, 8> lane;
@@ -152,7 +153,7 @@ class maxwell_slip_ten {
 
   static constexpr scalar damping = 0.0;  // b, the brake's part
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
-  // for a change of position [N/m]
+  // factor of the change of position [N/m]
   alignas(16) static constexpr scalar Y1_trial_by_change[16] = {200.0, 190.0, 180.0, 170.0, 160.0, 150.0, 140.0,
       130.0, 120.0, 110.0};
   // Y [N]

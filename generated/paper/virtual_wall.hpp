@@ -5,7 +5,7 @@
 //   samples in which a slip or a contact changes
 // brake: makes b = 5 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': dampers at the
 //   tool in parallel add
-// states: what is kept of the past follows the measured position (position driven, as a network with a contact
+// states: what the law remembers follows the measured position (position driven, as a network with a contact
 //   always is)
 // contact: at 0 m; brake and motor 0 while the tool is free
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
@@ -14,14 +14,14 @@
 //   device's own damping acts; 10.25 N·s/m of damping are needed, at least 0 is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
-//   rounding adds at most 1.1e-15 of the sum of the force's terms
+// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
+//   energy; rounding adds at most 1.1e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 6 additions, 4 multiplications, 1 guard against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 3 numbers kept between
 //   samples
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 2f3f76a19a6f4d740be997cf81ac93892771e81493edbad696d8ba09ac2d73f7. It belongs to whoever had it
@@ -38,7 +38,7 @@ class virtual_wall {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -53,7 +53,8 @@ class virtual_wall {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     if (!dashpot::all_finite(position)) position = 0;
     // s = (u − u0)⁺
@@ -69,11 +70,11 @@ class virtual_wall {
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δ = u − s₋
     const scalar approach = position - surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar held_force = static_stiffness * surface_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar surface_recovery = recovery_compliance * held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar surface_change = surface_recovery - approach > 0 ? surface_recovery : approach;
     // gap = s − u
     const scalar gap = surface_change - approach;
@@ -97,7 +98,7 @@ class virtual_wall {
     return {brake, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -105,15 +106,15 @@ class virtual_wall {
     surface_ = sampled_surface_now_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δ = u − s₋
     const scalar approach = position - surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar held_force = static_stiffness * surface_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar surface_recovery = recovery_compliance * held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar surface_change = surface_recovery - approach > 0 ? surface_recovery : approach;
     // gap = s − u
     const scalar gap = surface_change - approach;
@@ -143,7 +144,7 @@ class virtual_wall {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // V = ½ k0 u² + Σ F_i²/(2 k_i)
     const scalar stored = half_static_stiffness * surface_ * surface_;
@@ -153,7 +154,7 @@ class virtual_wall {
  private:
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar static_stiffness = 500.0;  // k0 [N/m]
-  static constexpr scalar none = 0.0;  // of a free tool [N]
+  static constexpr scalar none = 0.0;  // no force on a free tool [N]
   static constexpr scalar recovery_compliance = -0.0001818181818181818;  // −1/g [m/N]
   static constexpr scalar feedthrough = 5.0;  // b∞ [N·s/m]
   static constexpr scalar contact_damping = 5.0;  // b while the tool touches [N·s/m]

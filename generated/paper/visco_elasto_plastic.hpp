@@ -3,11 +3,12 @@
 // source: Gosline & Hayward 2009, Fig. 10 and (21); the paper prints no values, these are chosen here
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
-// brake: makes b = 2.5 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by
-//   the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in parallel add
+// brake: makes b = 2.5 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
+//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in
+//   parallel add
 // behind Y: steady, the largest brake, 3.3 N s/m on average, of the laws that err by no more than 5 % in a run:
 //   2.04e-05 %; b = 0.8 N·s/m stuck, 0.8 sliding
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -16,15 +17,15 @@
 //   least 3.3 N·s/m is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
-//   rounding adds at most 1.4e-15 of the sum of the force's terms
+// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
+//   energy; rounding adds at most 1.4e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 5 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 1 multiplication, 1 guard against subnormal numbers; 6 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 5.6e-16 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -42,7 +43,7 @@ class visco_elasto_plastic {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -57,7 +58,8 @@ class visco_elasto_plastic {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     K_spring_force_ = 0;
@@ -73,11 +75,11 @@ class visco_elasto_plastic {
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
-    // t = stuck trial
+    // trial = force of the slip if it held
     const scalar Y_trial = Y_trial_by_change * position_change + K_spring_force_;
-    // s = clamp(t, ±Y)
+    // slip = clamp(trial, ±Y)
     const scalar Y_slip = dashpot::clamp_to(Y_yield, Y_trial);
-    // r = t − s
+    // excess = trial − slip
     const scalar Y_excess = Y_trial - Y_slip;
     // m = f − b u̇
     const scalar force = Y_trial - Y_force_by_excess * Y_excess - slips_compensation * velocity;
@@ -91,7 +93,7 @@ class visco_elasto_plastic {
     return {damping, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -101,15 +103,15 @@ class visco_elasto_plastic {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
-    // t = stuck trial
+    // trial = force of the slip if it held
     const scalar Y_trial = Y_trial_by_change * position_change + K_spring_force_;
-    // s = clamp(t, ±Y)
+    // slip = clamp(trial, ±Y)
     const scalar Y_slip = dashpot::clamp_to(Y_yield, Y_trial);
-    // r = t − s
+    // excess = trial − slip
     const scalar Y_excess = Y_trial - Y_slip;
     // m = f − b u̇
     const scalar force = Y_trial - Y_force_by_excess * Y_excess - slips_compensation * velocity;
@@ -128,7 +130,7 @@ class visco_elasto_plastic {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar K_spring_energy = K_compliance * K_spring_force_ * K_spring_force_;
@@ -140,16 +142,16 @@ class visco_elasto_plastic {
  private:
   static constexpr scalar damping = 3.3;  // b, the brake's part
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
-  static constexpr scalar Y_trial_by_change = 1000.0;  // for a change of position [N/m]
+  static constexpr scalar Y_trial_by_change = 1000.0;  // factor of the change of position [N/m]
   static constexpr scalar Y_yield = 0.5;  // Y [N]
-  static constexpr scalar Y_force_by_excess = 0.5555555555555556;  // for what the slip does not hold [1]
-  static constexpr scalar slips_compensation = 0.7999991999992;  // β behind slips [N·s/m]
-  static constexpr scalar Y_K_spring_by_excess = 0.5555555555555556;  // for what the slip does not hold [1]
+  static constexpr scalar Y_force_by_excess = 0.5555555555555556;  // factor of the excess [1]
+  static constexpr scalar slips_compensation = 0.7999991999992;  // β, damping of the brake that the motor takes back [N·s/m]
+  static constexpr scalar Y_K_spring_by_excess = 0.5555555555555556;  // factor of the excess [1]
   static constexpr scalar K_compliance = 0.0005;  // 1/(2 k) [m/N]
 
   scalar K_spring_force_ = 0;  // force of the spring [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
-  scalar sampled_Y_trial_ = 0;  // the slip's force if it held, at this sample [N]
+  scalar sampled_Y_trial_ = 0;  // force of the slip if it held, at this sample [N]
   scalar sampled_Y_excess_ = 0;  // what the slip does not hold, at this sample [N]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]

@@ -3,10 +3,10 @@
 // source: Gosline & Hayward 2009, end of 6.3.3; the paper prints no values, these are chosen here
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
-// brake: makes the damping that follows of each slip, and the motor the rest of the force
+// brake: makes the damping that the next lines give for each slip, and the motor the rest of the force
 // behind Y: steady, the largest brake, 3.3 N s/m on average, of the laws that err by no more than 5 % in a run:
 //   7.69e-05 %; b = 3.3 N·s/m stuck, 3.3 sliding
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -15,15 +15,15 @@
 //   least 3.3 N·s/m is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
-//   rounding adds at most 1.9e-14 of the sum of the force's terms
+// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
+//   energy; rounding adds at most 1.9e-14 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 13 additions, 12 multiplications, 0 guards against subnormal numbers
 // cost of update(): 11 additions, 11 multiplications, 3 guards against subnormal numbers; 8 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 1.6e-14 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -41,7 +41,7 @@ class visco_elasto_plastic_organ {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -56,7 +56,8 @@ class visco_elasto_plastic_organ {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     K3_B3_K4_B4_spring_force_ = 0;
@@ -74,15 +75,15 @@ class visco_elasto_plastic_organ {
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
-    // t = stuck trial
+    // trial = force of the slip if it held
     const scalar Y_trial = Y_trial_by_change * position_change +
         Y_trial_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
         Y_trial_by_K * K_spring_force_;
-    // s = clamp(t, ±Y)
+    // slip = clamp(trial, ±Y)
     const scalar Y_slip = dashpot::clamp_to(Y_yield, Y_trial);
-    // r = t − s
+    // excess = trial − slip
     const scalar Y_excess = Y_trial - Y_slip;
-    // f' = f − x Δu/h, x of the regime
+    // f′ = f − x Δu/h, where the brake makes x of the damping
     const scalar Y_force = Y_excess * Y_slip > 0 ? Y_force_by_change * position_change +
         Y_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
         Y_force_by_K * K_spring_force_ - Y_force_by_excess * Y_excess : Y_stuck_force_by_change * position_change +
@@ -100,7 +101,7 @@ class visco_elasto_plastic_organ {
     return {damping, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -126,19 +127,19 @@ class visco_elasto_plastic_organ {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
-    // t = stuck trial
+    // trial = force of the slip if it held
     const scalar Y_trial = Y_trial_by_change * position_change +
         Y_trial_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
         Y_trial_by_K * K_spring_force_;
-    // s = clamp(t, ±Y)
+    // slip = clamp(trial, ±Y)
     const scalar Y_slip = dashpot::clamp_to(Y_yield, Y_trial);
-    // r = t − s
+    // excess = trial − slip
     const scalar Y_excess = Y_trial - Y_slip;
-    // f' = f − x Δu/h, x of the regime
+    // f′ = f − x Δu/h, where the brake makes x of the damping
     const scalar Y_force = Y_excess * Y_slip > 0 ? Y_force_by_change * position_change +
         Y_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
         Y_force_by_K * K_spring_force_ - Y_force_by_excess * Y_excess : Y_stuck_force_by_change * position_change +
@@ -176,7 +177,7 @@ class visco_elasto_plastic_organ {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar K3_B3_K4_B4_spring_energy = K3_B3_K4_B4_compliance * K3_B3_K4_B4_spring_force_ *
@@ -194,27 +195,27 @@ class visco_elasto_plastic_organ {
  private:
   static constexpr scalar damping = 3.3;  // b, the brake's part
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
-  static constexpr scalar Y_trial_by_change = 581.271352586278;  // for a change of position [N/m]
-  static constexpr scalar Y_trial_by_K3_B3_K4_B4 = 0.11963675640392056;  // for a force held there [1]
-  static constexpr scalar Y_trial_by_K = 0.8803632435960794;  // for a force held there [1]
+  static constexpr scalar Y_trial_by_change = 581.271352586278;  // factor of the change of position [N/m]
+  static constexpr scalar Y_trial_by_K3_B3_K4_B4 = 0.11963675640392056;  // factor of the force held there [1]
+  static constexpr scalar Y_trial_by_K = 0.8803632435960794;  // factor of the force held there [1]
   static constexpr scalar Y_yield = 0.5;  // Y [N]
-  static constexpr scalar Y_force_by_change = 412.82811243035144;  // for a change of position [N/m]
-  static constexpr scalar Y_force_by_K3_B3_K4_B4 = 0.41872864741372195;  // for a force held there [1]
-  static constexpr scalar Y_force_by_K = 0.581271352586278;  // for a force held there [1]
-  static constexpr scalar Y_force_by_excess = 0.3459200591309781;  // for what the slip does not hold [1]
-  static constexpr scalar Y_stuck_force_by_change = 412.82811243035144;  // for a change of position [N/m]
-  static constexpr scalar Y_stuck_force_by_K3_B3_K4_B4 = 0.41872864741372195;  // for a force held there [1]
-  static constexpr scalar Y_stuck_force_by_K = 0.581271352586278;  // for a force held there [1]
-  static constexpr scalar slips_compensation = 1.6783766999983214;  // β behind slips [N·s/m]
-  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_change = 0.41872864741372195;  // for a change of position [N/m]
-  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 = 0.00011963675640392057;  // for a force held there [1]
-  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_K = 0.00011963675640392057;  // for a force held there [1]
-  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_excess = 7.119696104985648e-05;  // for what the slip does not hold [1]
-  static constexpr scalar Y_K3_B3_K4_B4_spring_by_change = 45.67948880876967;  // for a change of position [N/m]
-  static constexpr scalar Y_K3_B3_K4_B4_spring_by_K3_B3_K4_B4 = 0.013051282516791335;  // for a force held there [1]
-  static constexpr scalar Y_K3_B3_K4_B4_spring_by_K = 0.013051282516791335;  // for a force held there [1]
-  static constexpr scalar Y_K3_B3_K4_B4_spring_by_excess = 0.007766941205438888;  // for what the slip does not hold [1]
-  static constexpr scalar Y_K_spring_by_excess = 0.5239124617556193;  // for what the slip does not hold [1]
+  static constexpr scalar Y_force_by_change = 412.82811243035144;  // factor of the change of position [N/m]
+  static constexpr scalar Y_force_by_K3_B3_K4_B4 = 0.41872864741372195;  // factor of the force held there [1]
+  static constexpr scalar Y_force_by_K = 0.581271352586278;  // factor of the force held there [1]
+  static constexpr scalar Y_force_by_excess = 0.3459200591309781;  // factor of the excess [1]
+  static constexpr scalar Y_stuck_force_by_change = 412.82811243035144;  // factor of the change of position [N/m]
+  static constexpr scalar Y_stuck_force_by_K3_B3_K4_B4 = 0.41872864741372195;  // factor of the force held there [1]
+  static constexpr scalar Y_stuck_force_by_K = 0.581271352586278;  // factor of the force held there [1]
+  static constexpr scalar slips_compensation = 1.6783766999983214;  // β, damping of the brake that the motor takes back [N·s/m]
+  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_change = 0.41872864741372195;  // factor of the change of position [N/m]
+  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 = 0.00011963675640392057;  // factor of the force held there [1]
+  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_K = 0.00011963675640392057;  // factor of the force held there [1]
+  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_excess = 7.119696104985648e-05;  // factor of the excess [1]
+  static constexpr scalar Y_K3_B3_K4_B4_spring_by_change = 45.67948880876967;  // factor of the change of position [N/m]
+  static constexpr scalar Y_K3_B3_K4_B4_spring_by_K3_B3_K4_B4 = 0.013051282516791335;  // factor of the force held there [1]
+  static constexpr scalar Y_K3_B3_K4_B4_spring_by_K = 0.013051282516791335;  // factor of the force held there [1]
+  static constexpr scalar Y_K3_B3_K4_B4_spring_by_excess = 0.007766941205438888;  // factor of the excess [1]
+  static constexpr scalar Y_K_spring_by_excess = 0.5239124617556193;  // factor of the excess [1]
   static constexpr scalar K3_B3_K4_B4_mode_gain = 131.3514621404418;  // a c [N/m]
   static constexpr scalar K3_B3_K4_B4_mode_decay = 0.9790683270857832;  // a = e^{−λh} [1]
   static constexpr scalar K3_B3_K4_B4_compliance = 0.004583333333333333;  // 1/(2 k) [m/N]
@@ -226,7 +227,7 @@ class visco_elasto_plastic_organ {
   scalar K_spring_force_ = 0;  // force of the spring [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_Y_excess_ = 0;  // what the slip does not hold, at this sample [N]
-  scalar sampled_Y_trial_ = 0;  // the slip's force if it held, at this sample [N]
+  scalar sampled_Y_trial_ = 0;  // force of the slip if it held, at this sample [N]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()

@@ -8,12 +8,12 @@
 // valid: displacement 0 to 0.03 m, rate 0 to 0.02 m/s
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
-// brake: makes b = 5 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by the
-//   rule 'faithful': without a device 'faithful' is the paper's rule: in series, B2 turns 100 % of the energy into
-//   heat at low frequency, and the brake follows it; with the contact no more than the feedthrough damping, so
-//   that the motor compensates nothing
+// brake: makes b = 5 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
+//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: in series, B2 turns 100 % of
+//   the energy into heat at low frequency, and the brake follows it; with the contact no more than the feedthrough
+//   damping, so that the motor compensates nothing
 // behind friction: velocity-free, the only damping of what slides is at the tool; b = 0 N·s/m stuck, 0 sliding
-// states: what is kept of the past follows the measured position (position driven, as a network with a contact
+// states: what the law remembers follows the measured position (position driven, as a network with a contact
 //   always is)
 // contact: at 0 m; brake and motor 0 while the tool is free
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
@@ -22,16 +22,16 @@
 //   device's own damping acts; 10.5838 N·s/m of damping are needed, at least 0 is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
-//   rounding adds at most 9.5e-15 of the sum of the force's terms
+// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
+//   energy; rounding adds at most 9.5e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 7 additions, 3 multiplications, 1 guard against subnormal numbers
 //   and at most 61 additions, multiplications and divisions for the coupled slips
 // cost of update(): 2 additions, 3 multiplications, 2 guards against subnormal numbers; 7 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 1.6e-15 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -50,7 +50,7 @@ class needle_in_liver {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -65,7 +65,8 @@ class needle_in_liver {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     if (!dashpot::all_finite(position)) position = 0;
     // s = (u − u0)⁺
@@ -85,9 +86,9 @@ class needle_in_liver {
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δ = u − s₋
     const scalar approach = position - surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar held_force = static_stiffness * surface_ + B2_K2_force_;
-    // f and every block's δ, by curves, signs and numbers
+    // slip_tree: f, and δ of every block
     const scalar coupled_friction_held[2] = {held_force, presliding_spring_force_};
     scalar coupled_friction_elongation[2] = {};
     int coupled_friction_sign[1] = {};
@@ -122,7 +123,7 @@ class needle_in_liver {
     return {brake, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -135,7 +136,7 @@ class needle_in_liver {
     surface_ = sampled_surface_now_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();
@@ -145,7 +146,7 @@ class needle_in_liver {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar B2_K2_energy = B2_K2_energy_weight * B2_K2_force_ * B2_K2_force_;
@@ -158,7 +159,7 @@ class needle_in_liver {
  private:
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar static_stiffness = 62.4;  // k0 [N/m]
-  static constexpr scalar none = 0.0;  // of a free tool [N]
+  static constexpr scalar none = 0.0;  // no force on a free tool [N]
   static constexpr scalar feedthrough_stiffness = -5000.0;  // −b∞/h [N/m]
   static constexpr scalar feedthrough = 5.0;  // b∞ [N·s/m]
   static constexpr scalar contact_damping = 5.0;  // b while the tool touches [N·s/m]

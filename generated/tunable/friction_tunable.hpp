@@ -2,11 +2,12 @@
 //
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
-// brake: makes b = 12 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by
-//   the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in parallel add
+// brake: makes b = 12 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
+//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in
+//   parallel add
 // behind friction: velocity-free, parameters change while it runs; b is that of their default values; b = 0 N·s/m
 //   stuck, 0 sliding
-// states: what is kept of the past follows the measured position (position driven, so that a change of parameters
+// states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -19,17 +20,17 @@
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 1.4e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
-//   set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs
-//   can pay; but the force of the last sample is still held, so call it right after step() and take the command
-//   from output() of the same sample
+//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
+//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   after step() and take the command from output() of the same sample
 //   b [N·s/m] follows damper_3
 // cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 1 multiplication, 1 guard against subnormal numbers; 9 numbers kept between
 //   samples
 // cost of set(): 7 operations for the constants, 53 for the forces of springs and their energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // c86fcb8b7c393e3b623d21078d88e80af59e3eaf3833b10700b69af0c86379ba. It belongs to whoever had it
@@ -48,7 +49,7 @@ class friction_tunable {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -67,7 +68,8 @@ class friction_tunable {
     scalar drag = 12.0;  // 0 to 40 [N s/m]
   };
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     spring_2_elongation_ = 0;
     spring_2_held_ = 0;
@@ -76,7 +78,7 @@ class friction_tunable {
     sampled_position_ = 0;
     sampled_position_change_ = 0;
     sampled_spring_2_stretched_ = 0;
-    // π
+    // force if the tool stays
     held_force_ = zero;
     last_brake_ = steady_brake_;
     sampled_ = false;
@@ -87,11 +89,11 @@ class friction_tunable {
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
-    // t, the slip's force if it held
+    // force of the slip if it held
     const scalar friction_trial = spring_2_answer_ * position_change + spring_2_held_;
-    // s = clamp(t, ±Y)
+    // clamp(trial, ±Y)
     const scalar friction_force = dashpot::clamp_to(friction_yield_, friction_trial);
-    // r = t − s
+    // excess = trial − force
     const scalar friction_excess = friction_trial - friction_force;
     // δ of the block
     const scalar spring_2_stretched = position_change + spring_2_given_way_ * friction_excess;
@@ -111,29 +113,29 @@ class friction_tunable {
     return {brake, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
     // z ← z + δ
     spring_2_elongation_ = dashpot::flush_below(threshold, spring_2_elongation_ + sampled_spring_2_stretched_);
-    // π
+    // force if the tool stays
     held_force_ = zero;
-    // π of the block
+    // force if the block keeps its length
     spring_2_held_ = presliding_ * spring_2_elongation_;
     // u₋ = u
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
-    // t, the slip's force if it held
+    // force of the slip if it held
     const scalar friction_trial = spring_2_answer_ * position_change + spring_2_held_;
-    // s = clamp(t, ±Y)
+    // clamp(trial, ±Y)
     const scalar friction_force = dashpot::clamp_to(friction_yield_, friction_trial);
-    // r = t − s
+    // excess = trial − force
     const scalar friction_excess = friction_trial - friction_force;
     // δ of the block
     const scalar spring_2_stretched = position_change + spring_2_given_way_ * friction_excess;
@@ -150,9 +152,9 @@ class friction_tunable {
     last_brake_ = brake;
     // z ← z + δ
     spring_2_elongation_ = dashpot::flush_below(threshold, spring_2_elongation_ + spring_2_stretched);
-    // π
+    // force if the tool stays
     held_force_ = zero;
-    // π of the block
+    // force if the block keeps its length
     spring_2_held_ = presliding_ * spring_2_elongation_;
     // u₋ = u
     last_position_ = position;
@@ -160,16 +162,16 @@ class friction_tunable {
     return {brake, force};
   }
 
-  // Right after step(), the command then being that of output() with the same sample and without update(): so the
-  // force from before is held no longer, and a spring that changes injects no energy. Bit i of the result: parameter i
-  // was beyond its range and is at its bound now, or it was NaN and is as it was.
+  // Call this right after step(), and take the command from output() of the same sample without another update(): the
+  // motor then holds the old force no longer, and a spring that changes injects no energy. Bit i of the result:
+  // parameter i was beyond its range and is now at its bound, or it was NaN and has not changed.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;
     clamped |= dashpot::take_value(tunables[0], wanted.yield, yield_) << 0;
     clamped |= dashpot::take_value(tunables[1], wanted.presliding, presliding_) << 1;
     clamped |= dashpot::take_value(tunables[2], wanted.drag, drag_) << 2;
-    // g of what joins tool and ground
+    // g of all that joins tool and ground without a slip
     step_stiffness_ = zero;
     friction_yield_ = yield_ - friction_least_yield > 0 ? yield_ : friction_least_yield;
     spring_2_answer_ = presliding_ - spring_2_least_answer > 0 ? presliding_ : spring_2_least_answer;
@@ -180,7 +182,7 @@ class friction_tunable {
     // b∞ − b
     velocity_gain_ = drag_ - steady_brake_;
     const scalar spring_2_force_before = spring_2_carried_stiffness_ * spring_2_elongation_;
-    // F, or F √(k′/k) of a softer spring
+    // F, or F √(k′/k) where the new stiffness k′ is lower
     const scalar spring_2_force_kept = spring_2_carried_stiffness_ - presliding_ > 0 ? (presliding_ > 0 ?
         spring_2_force_before *
         dashpot::square_root(presliding_ / spring_2_carried_stiffness_) : zero) : spring_2_force_before;
@@ -199,7 +201,7 @@ class friction_tunable {
         zero - spring_2_force_short;
     const scalar spring_2_falls_short = presliding_ > 0 ? spring_2_force_short_size : zero;
     const scalar spring_2_energy_unpaid = spring_2_energy_missing - tank_;
-    // F, as far as the tank pays
+    // F as before, as far as the energy in the tank allows
     const scalar spring_2_force_after = spring_2_falls_short > 0 ? (spring_2_energy_unpaid > 0 ?
         (spring_2_force_before > 0 ? spring_2_force_most : minus_one *
         spring_2_force_most) : spring_2_force_before) : spring_2_force_kept;
@@ -216,16 +218,16 @@ class friction_tunable {
     spring_2_elongation_ = spring_2_is_changed > 0 ? (presliding_ > 0 ? spring_2_force_after / presliding_ : zero) :
         spring_2_elongation_;
     spring_2_carried_stiffness_ = presliding_;
-    // π
+    // force if the tool stays
     held_force_ = zero;
-    // π of the block
+    // force if the block keeps its length
     spring_2_held_ = presliding_ * spring_2_elongation_;
     return clamped;
   }
 
-  // In the springs, and set free by changes of parameters, after the last update() [J].
+  // Energy in the springs, and set free by changes of parameters, after the last update() [J].
   scalar stored_energy() const noexcept {
-    // V + T: in the springs, and what changes of parameters have set free
+    // V + tank: in the springs, and set free by changes of parameters
     const scalar stored = tank_ + presliding_ * spring_2_elongation_ * spring_2_elongation_ * half;
     return stored;
   }
@@ -233,8 +235,8 @@ class friction_tunable {
  private:
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar zero = 0.0;  // nothing [1]
-  static constexpr scalar spring_2_least_answer = 0.0002980232238769531;  // g, no less whatever the parameters are [N/m]
-  static constexpr scalar friction_least_yield = 2.980232238769531e-07;  // Y, no less whatever the parameters are [N]
+  static constexpr scalar spring_2_least_answer = 0.0002980232238769531;  // smallest g, whatever the parameters are [N/m]
+  static constexpr scalar friction_least_yield = 2.980232238769531e-07;  // smallest Y, whatever the parameters are [N]
   static constexpr scalar one = 1.0;  // one [1]
   static constexpr scalar two = 2.0;  // two [1]
   static constexpr scalar minus_one = -1.0;  // minus one [1]
@@ -245,19 +247,19 @@ class friction_tunable {
       {12.0, 0.0, 40.0},  // drag [N s/m]
   };
 
-  scalar held_force_ = 0;  // π, what springs hold [N]
+  scalar held_force_ = 0;  // force of the springs if the tool stays [N]
   scalar yield_ = 1.5;  // parameter [N]
   scalar presliding_ = 2000.0;  // parameter [N/m]
   scalar drag_ = 12.0;  // parameter [N s/m]
-  scalar step_stiffness_ = 0;  // what springs answer in a sample [N/m]
-  scalar spring_2_elongation_ = 0;  // z [m]
-  scalar spring_2_carried_stiffness_ = 2000.0;  // k for which the force is what it is [N/m]
-  scalar spring_2_held_ = 0;  // π, what the block holds [N]
-  scalar tank_ = 0;  // T, set free by changes of parameters [J]
+  scalar step_stiffness_ = 0;  // stiffness of the springs over one sample [N/m]
+  scalar spring_2_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar spring_2_carried_stiffness_ = 2000.0;  // k after the last change of parameters [N/m]
+  scalar spring_2_held_ = 0;  // force if the block keeps its length [N]
+  scalar tank_ = 0;  // energy set free by changes of parameters, not yet spent [J]
   scalar friction_yield_ = 1.5;  // Y [N]
-  scalar spring_2_answer_ = 2000.0;  // g of the block [N/m]
+  scalar spring_2_answer_ = 2000.0;  // g, stiffness of the block over one sample [N/m]
   scalar spring_2_given_way_ = -0.0005;  // δ for each newton that the slip does not hold [m/N]
-  scalar steady_brake_ = 12.0;  // b of what no slip changes [N·s/m]
+  scalar steady_brake_ = 12.0;  // b of the parts that no slip changes [N·s/m]
   scalar velocity_gain_ = 0;  // b∞ − b [N·s/m]
   scalar last_brake_ = 12.0;  // b of the sample before [N·s/m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]

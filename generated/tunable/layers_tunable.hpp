@@ -2,11 +2,12 @@
 //
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
-// brake: makes b = 3 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by the
-//   rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in parallel add
+// brake: makes b = 3 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
+//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in
+//   parallel add
 // behind skin_grip, muscle_grip, fascia: velocity-free, parameters change while it runs; b is that of their
 //   default values
-// states: what is kept of the past follows the measured position (position driven, so that a change of parameters
+// states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -18,18 +19,18 @@
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 1.3e-12 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // tunable: skin_friction (0 to 3 N), muscle_friction (0 to 3 N), muscle_stiffness (100 to 4000 N/m)
-//   set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs
-//   can pay; but the force of the last sample is still held, so call it right after step() and take the command
-//   from output() of the same sample
+//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
+//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   after step() and take the command from output() of the same sample
 //   b [N·s/m] follows drag
 // cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
 //   and at most 11370 additions, multiplications and divisions for the coupled slips
 // cost of update(): 8 additions, 8 multiplications, 4 guards against subnormal numbers; 20 numbers kept between
 //   samples
 // cost of set(): 77 operations for the constants, 60 for the forces of springs and their energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // f0efa940f84bdf7de39f3046f7db636a23508bba43641aab1bc67b5c837ec98b. It belongs to whoever had it
@@ -50,7 +51,7 @@ class layers_tunable {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -69,7 +70,8 @@ class layers_tunable {
     scalar muscle_stiffness = 900.0;  // 100 to 4000 [N/m]
   };
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     presliding_elongation_ = 0;
     skin_elasticity_elongation_ = 0;
@@ -88,7 +90,7 @@ class layers_tunable {
     sampled_network_skin_grip_end_1_moved_ = 0;
     sampled_network_skin_grip_end_2_moved_ = 0;
     sampled_network_skin_grip_end_3_moved_ = 0;
-    // π
+    // force if the tool stays
     held_force_ = zero;
     // b while all slips hold
     resting_brake_ = zero;
@@ -105,7 +107,7 @@ class layers_tunable {
     const scalar network_skin_grip_end_2_held = skin_elasticity_skin_viscosity_held_;
     const scalar network_skin_grip_end_3_held = muscle_elasticity_to_muscle_rest_held_;
     const scalar network_skin_grip_tool_held = presliding_held_;
-    // f and where every end goes, by patterns of slips
+    // slip_network: f, and how far every end moves
     const scalar network_skin_grip_held[4] = {network_skin_grip_end_1_held, network_skin_grip_end_2_held,
         network_skin_grip_end_3_held, network_skin_grip_tool_held};
     scalar network_skin_grip_moved[3] = {};
@@ -122,9 +124,9 @@ class layers_tunable {
     const scalar skin_grip_sign = static_cast<scalar>(network_skin_grip_sign[0]);
     const scalar muscle_grip_sign = static_cast<scalar>(network_skin_grip_sign[1]);
     const scalar fascia_sign = static_cast<scalar>(network_skin_grip_sign[2]);
-    // b∞/T of the slips' regime
+    // b∞/h of the slips that give way now
     const scalar slips_feedthrough = zero * rate;
-    // b of the command's regime
+    // b for the slips that the command counts as sliding
     const scalar slips_brake = zero;
     // m = f − b u̇
     const scalar force = step_stiffness_ * position_change + held_force_ +
@@ -146,7 +148,7 @@ class layers_tunable {
     return {brake, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -165,13 +167,13 @@ class layers_tunable {
         (muscle_elasticity_muscle_viscosity_kept_ *
         sampled_network_skin_grip_end_3_moved_ - muscle_elasticity_muscle_viscosity_loss_ *
         muscle_elasticity_muscle_viscosity_elongation_));
-    // π
+    // force if the tool stays
     held_force_ = zero;
-    // π of the block
+    // force if the block keeps its length
     presliding_held_ = presliding * presliding_elongation_;
-    // π of the block
+    // force if the block keeps its length
     skin_elasticity_skin_viscosity_held_ = skin_elasticity * skin_elasticity_elongation_;
-    // π of the block
+    // force if the block keeps its length
     muscle_elasticity_to_muscle_rest_held_ = muscle_rest * muscle_rest_elongation_ +
         (muscle_stiffness_ * muscle_elasticity_muscle_viscosity_elongation_ - muscle_stiffness_ *
         (muscle_elasticity_muscle_viscosity_loss_ * muscle_elasticity_muscle_viscosity_elongation_));
@@ -179,23 +181,23 @@ class layers_tunable {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();
     return now;
   }
 
-  // Right after step(), the command then being that of output() with the same sample and without update(): so the
-  // force from before is held no longer, and a spring that changes injects no energy. Bit i of the result: parameter i
-  // was beyond its range and is at its bound now, or it was NaN and is as it was.
+  // Call this right after step(), and take the command from output() of the same sample without another update(): the
+  // motor then holds the old force no longer, and a spring that changes injects no energy. Bit i of the result:
+  // parameter i was beyond its range and is now at its bound, or it was NaN and has not changed.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;
     clamped |= dashpot::take_value(tunables[0], wanted.skin_friction, skin_friction_) << 0;
     clamped |= dashpot::take_value(tunables[1], wanted.muscle_friction, muscle_friction_) << 1;
     clamped |= dashpot::take_value(tunables[2], wanted.muscle_stiffness, muscle_stiffness_) << 2;
-    // x = T k/b
+    // x = h k/B
     muscle_elasticity_muscle_viscosity_ratio_ = dashpot::clamp_to(largest_ratio,
         muscle_stiffness_ * period / muscle_viscosity);
     // φ = (1 − e^(−x))/x
@@ -203,7 +205,7 @@ class layers_tunable {
     // α = x φ
     muscle_elasticity_muscle_viscosity_loss_ = muscle_elasticity_muscle_viscosity_ratio_ *
         muscle_elasticity_muscle_viscosity_kept_;
-    // g of what joins tool and ground
+    // g of all that joins tool and ground without a slip
     step_stiffness_ = zero;
     const scalar skin_elasticity_skin_viscosity_answer_alone = skin_elasticity + skin_viscosity * rate;
     const scalar muscle_elasticity_to_muscle_rest_answer_alone = muscle_rest +
@@ -225,7 +227,7 @@ class layers_tunable {
     brake_left_ = max_damping - steady_brake_;
     const scalar muscle_elasticity_muscle_viscosity_force_before =
         muscle_elasticity_muscle_viscosity_carried_stiffness_ * muscle_elasticity_muscle_viscosity_elongation_;
-    // F, or F √(k′/k) of a softer spring
+    // F, or F √(k′/k) where the new stiffness k′ is lower
     const scalar muscle_elasticity_muscle_viscosity_force_kept =
         muscle_elasticity_muscle_viscosity_carried_stiffness_ - muscle_stiffness_ > 0 ? (muscle_stiffness_ > 0 ?
         muscle_elasticity_muscle_viscosity_force_before *
@@ -257,7 +259,7 @@ class layers_tunable {
         muscle_elasticity_muscle_viscosity_force_short_size : zero;
     const scalar muscle_elasticity_muscle_viscosity_energy_unpaid =
         muscle_elasticity_muscle_viscosity_energy_missing - tank_;
-    // F, as far as the tank pays
+    // F as before, as far as the energy in the tank allows
     const scalar muscle_elasticity_muscle_viscosity_force_after =
         muscle_elasticity_muscle_viscosity_falls_short > 0 ? (muscle_elasticity_muscle_viscosity_energy_unpaid > 0 ?
         (muscle_elasticity_muscle_viscosity_force_before > 0 ? muscle_elasticity_muscle_viscosity_force_most :
@@ -286,13 +288,13 @@ class layers_tunable {
         (muscle_stiffness_ > 0 ? muscle_elasticity_muscle_viscosity_force_after / muscle_stiffness_ : zero) :
         muscle_elasticity_muscle_viscosity_elongation_;
     muscle_elasticity_muscle_viscosity_carried_stiffness_ = muscle_stiffness_;
-    // π
+    // force if the tool stays
     held_force_ = zero;
-    // π of the block
+    // force if the block keeps its length
     presliding_held_ = presliding * presliding_elongation_;
-    // π of the block
+    // force if the block keeps its length
     skin_elasticity_skin_viscosity_held_ = skin_elasticity * skin_elasticity_elongation_;
-    // π of the block
+    // force if the block keeps its length
     muscle_elasticity_to_muscle_rest_held_ = muscle_rest * muscle_rest_elongation_ +
         (muscle_stiffness_ * muscle_elasticity_muscle_viscosity_elongation_ - muscle_stiffness_ *
         (muscle_elasticity_muscle_viscosity_loss_ * muscle_elasticity_muscle_viscosity_elongation_));
@@ -306,9 +308,9 @@ class layers_tunable {
     return clamped;
   }
 
-  // In the springs, and set free by changes of parameters, after the last update() [J].
+  // Energy in the springs, and set free by changes of parameters, after the last update() [J].
   scalar stored_energy() const noexcept {
-    // V + T: in the springs, and what changes of parameters have set free
+    // V + tank: in the springs, and set free by changes of parameters
     const scalar stored = tank_ + presliding * presliding_elongation_ * presliding_elongation_ * half +
         skin_elasticity * skin_elasticity_elongation_ * skin_elasticity_elongation_ * half +
         muscle_rest * muscle_rest_elongation_ * muscle_rest_elongation_ * half +
@@ -325,15 +327,15 @@ class layers_tunable {
   static constexpr scalar skin_viscosity = 3.0;  // as in the network [N s/m]
   static constexpr scalar muscle_rest = 200.0;  // as in the network [N/m]
   static constexpr scalar muscle_viscosity = 20.0;  // as in the network [N s/m]
-  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // beyond, nothing is left after a sample [1]
-  static constexpr scalar period = 0.001;  // T [s]
+  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // largest x: beyond it nothing is left after a sample [1]
+  static constexpr scalar period = 0.001;  // h, the sample period [s]
   static constexpr scalar zero = 0.0;  // nothing [1]
-  static constexpr scalar rate = 1000.0;  // 1/T [Hz]
-  static constexpr scalar skin_grip_least_yield = 1.7881393432617188e-07;  // Y, no less whatever the parameters are [N]
-  static constexpr scalar muscle_grip_least_yield = 1.7881393432617188e-07;  // Y, no less whatever the parameters are [N]
-  static constexpr scalar skin_elasticity_skin_viscosity_least_answer = 0.00020265579223632812;  // g, no less whatever the parameters are [N/m]
-  static constexpr scalar muscle_elasticity_to_muscle_rest_least_answer = 0.00022801071038486737;  // g, no less whatever the parameters are [N/m]
-  static constexpr scalar max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
+  static constexpr scalar rate = 1000.0;  // 1/h [Hz]
+  static constexpr scalar skin_grip_least_yield = 1.7881393432617188e-07;  // smallest Y, whatever the parameters are [N]
+  static constexpr scalar muscle_grip_least_yield = 1.7881393432617188e-07;  // smallest Y, whatever the parameters are [N]
+  static constexpr scalar skin_elasticity_skin_viscosity_least_answer = 0.00020265579223632812;  // smallest g, whatever the parameters are [N/m]
+  static constexpr scalar muscle_elasticity_to_muscle_rest_least_answer = 0.00022801071038486737;  // smallest g, whatever the parameters are [N/m]
+  static constexpr scalar max_damping = 1.7976931348623157e+308;  // largest damping that the brake can give [N·s/m]
   static constexpr scalar two = 2.0;  // two [1]
   static constexpr scalar minus_one = -1.0;  // minus one [1]
   static constexpr scalar half = 0.5;  // a half [1]
@@ -343,41 +345,41 @@ class layers_tunable {
       {900.0, 100.0, 4000.0},  // muscle_stiffness [N/m]
   };
 
-  scalar held_force_ = 0;  // π, what springs hold [N]
+  scalar held_force_ = 0;  // force of the springs if the tool stays [N]
   scalar skin_friction_ = 0.8;  // parameter [N]
   scalar muscle_friction_ = 1.2;  // parameter [N]
   scalar muscle_stiffness_ = 900.0;  // parameter [N/m]
-  scalar muscle_elasticity_muscle_viscosity_ratio_ = 0.045;  // a sample over the relaxation time [1]
-  scalar muscle_elasticity_muscle_viscosity_kept_ = 0.9778337370422243;  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_elasticity_muscle_viscosity_loss_ = 0.044002518166900095;  // α, what is lost in a sample [1]
-  scalar step_stiffness_ = 0;  // what springs answer in a sample [N/m]
-  scalar presliding_elongation_ = 0;  // z [m]
-  scalar skin_elasticity_elongation_ = 0;  // z [m]
-  scalar muscle_rest_elongation_ = 0;  // z [m]
-  scalar muscle_elasticity_muscle_viscosity_elongation_ = 0;  // z [m]
-  scalar muscle_elasticity_muscle_viscosity_carried_stiffness_ = 900.0;  // k for which the force is what it is [N/m]
-  scalar presliding_held_ = 0;  // π, what the block holds [N]
-  scalar skin_elasticity_skin_viscosity_held_ = 0;  // π, what the block holds [N]
-  scalar muscle_elasticity_to_muscle_rest_held_ = 0;  // π, what the block holds [N]
-  scalar sampled_skin_grip_sign_ = 0;  // side to which the slip gives way, at this sample [1]
-  scalar sampled_muscle_grip_sign_ = 0;  // side to which the slip gives way, at this sample [1]
-  scalar sampled_fascia_sign_ = 0;  // side to which the slip gives way, at this sample [1]
-  scalar tank_ = 0;  // T, set free by changes of parameters [J]
+  scalar muscle_elasticity_muscle_viscosity_ratio_ = 0.045;  // x, the sample period over the relaxation time [1]
+  scalar muscle_elasticity_muscle_viscosity_kept_ = 0.9778337370422243;  // φ, share of a displacement that is left in the spring at the end of the sample [1]
+  scalar muscle_elasticity_muscle_viscosity_loss_ = 0.044002518166900095;  // α, share of its elongation that is lost in a sample [1]
+  scalar step_stiffness_ = 0;  // stiffness of the springs over one sample [N/m]
+  scalar presliding_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar skin_elasticity_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar muscle_rest_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar muscle_elasticity_muscle_viscosity_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar muscle_elasticity_muscle_viscosity_carried_stiffness_ = 900.0;  // k after the last change of parameters [N/m]
+  scalar presliding_held_ = 0;  // force if the block keeps its length [N]
+  scalar skin_elasticity_skin_viscosity_held_ = 0;  // force if the block keeps its length [N]
+  scalar muscle_elasticity_to_muscle_rest_held_ = 0;  // force if the block keeps its length [N]
+  scalar sampled_skin_grip_sign_ = 0;  // direction in which the slip slides, 0 while it holds, at this sample [1]
+  scalar sampled_muscle_grip_sign_ = 0;  // direction in which the slip slides, 0 while it holds, at this sample [1]
+  scalar sampled_fascia_sign_ = 0;  // direction in which the slip slides, 0 while it holds, at this sample [1]
+  scalar tank_ = 0;  // energy set free by changes of parameters, not yet spent [J]
   scalar skin_grip_yield_ = 0.8;  // Y [N]
   scalar muscle_grip_yield_ = 1.2;  // Y [N]
   scalar network_skin_grip_1_to_tool_ = 4000.0;  // g between two ends [N/m]
   scalar network_skin_grip_2_to_ground_ = 3400.0;  // g between two ends [N/m]
   scalar network_skin_grip_3_to_ground_ = 1080.0503633380017;  // g between two ends [N/m]
-  scalar steady_brake_ = 3.0;  // b of what no slip changes [N·s/m]
+  scalar steady_brake_ = 3.0;  // b of the parts that no slip changes [N·s/m]
   scalar velocity_gain_ = 0;  // b∞ − b [N·s/m]
-  scalar brake_left_ = 1.7976931348623157e+308;  // what the brake has left for slips [N·s/m]
+  scalar brake_left_ = 1.7976931348623157e+308;  // damping that the brake has left for slips [N·s/m]
   scalar last_brake_ = 3.0;  // b of the sample before [N·s/m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_network_skin_grip_end_1_moved_ = 0;  // displacement of an inner end, at this sample [m]
   scalar sampled_network_skin_grip_end_2_moved_ = 0;  // displacement of an inner end, at this sample [m]
   scalar sampled_network_skin_grip_end_3_moved_ = 0;  // displacement of an inner end, at this sample [m]
-  scalar resting_brake_ = 0;  // b of what is behind slips that hold [N·s/m]
+  scalar resting_brake_ = 0;  // b of the parts behind slips that hold [N·s/m]
   scalar last_position_ = 0;  // u of the sample before [m]
   // ends, lowest and highest force of each slip; inner ends come first, then tool and ground
   dashpot::slip_link<scalar> network_skin_grip_links_[3] = {

@@ -7,7 +7,7 @@
 //   series, muscle_damper_3 turns 100 % of the energy into heat at low frequency, and the brake follows it; in
 //   series, muscle_damper_4 turns 100 % of the energy into heat at low frequency, and the brake follows it; and 1
 //   more series connections likewise
-// states: what is kept of the past follows the measured position (position driven, so that a change of parameters
+// states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -19,17 +19,17 @@
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 6.9e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // tunable: K (0 to 400 N/m)
-//   set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs
-//   can pay; but the force of the last sample is still held, so call it right after step() and take the command
-//   from output() of the same sample
+//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
+//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   after step() and take the command from output() of the same sample
 //   b [N·s/m] follows muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 27 additions, 30 multiplications, 6 guards against subnormal numbers; 13 numbers kept between
 //   samples
 // cost of set(): 355 operations for the constants, 338 for the forces of springs and their energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // ad65d63c24093f1299b3ee1f326d3cb11e6151cf24830b048ab36de99b135cf8. It belongs to whoever had it
@@ -49,7 +49,7 @@ class springpot_tunable {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -66,7 +66,8 @@ class springpot_tunable {
     scalar K = 120.0;  // 0 to 400 [N/m]
   };
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     muscle_spring_1_muscle_damper_1_elongation_ = 0;
     muscle_spring_2_muscle_damper_2_elongation_ = 0;
@@ -80,7 +81,7 @@ class springpot_tunable {
     sampled_position_change_ = 0;
     // z = u
     rest_elongation_ = last_position_;
-    // π
+    // force if the tool stays
     held_force_ = rest * (rest_elongation_ - rest_offset_) +
         (muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ - muscle_spring_1_ *
         (muscle_spring_1_muscle_damper_1_loss_ * muscle_spring_1_muscle_damper_1_elongation_)) +
@@ -114,7 +115,7 @@ class springpot_tunable {
     return {brake, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -150,9 +151,9 @@ class springpot_tunable {
         (rest_elongation_ - rest_offset_after + (rest_elongation_ - rest_offset_)) * half;
     const scalar rest_offset_unpaid = rest_offset_cost - tank_;
     tank_ = rest_offset_unpaid > 0 ? tank_ : tank_ - rest_offset_cost;
-    // r goes home where the tank pays
+    // r moves towards 0 if the tank has the energy for it
     rest_offset_ = rest_offset_unpaid > 0 ? rest_offset_ : rest_offset_after;
-    // π
+    // force if the tool stays
     held_force_ = rest * (rest_elongation_ - rest_offset_) +
         (muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ - muscle_spring_1_ *
         (muscle_spring_1_muscle_damper_1_loss_ * muscle_spring_1_muscle_damper_1_elongation_)) +
@@ -168,7 +169,7 @@ class springpot_tunable {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
@@ -213,9 +214,9 @@ class springpot_tunable {
         (rest_elongation_ - rest_offset_after + (rest_elongation_ - rest_offset_)) * half;
     const scalar rest_offset_unpaid = rest_offset_cost - tank_;
     tank_ = rest_offset_unpaid > 0 ? tank_ : tank_ - rest_offset_cost;
-    // r goes home where the tank pays
+    // r moves towards 0 if the tank has the energy for it
     rest_offset_ = rest_offset_unpaid > 0 ? rest_offset_ : rest_offset_after;
-    // π
+    // force if the tool stays
     held_force_ = rest * (rest_elongation_ - rest_offset_) +
         (muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ - muscle_spring_1_ *
         (muscle_spring_1_muscle_damper_1_loss_ * muscle_spring_1_muscle_damper_1_elongation_)) +
@@ -233,9 +234,9 @@ class springpot_tunable {
     return {brake, force};
   }
 
-  // Right after step(), the command then being that of output() with the same sample and without update(): so the
-  // force from before is held no longer, and a spring that changes injects no energy. Bit i of the result: parameter i
-  // was beyond its range and is at its bound now, or it was NaN and is as it was.
+  // Call this right after step(), and take the command from output() of the same sample without another update(): the
+  // motor then holds the old force no longer, and a spring that changes injects no energy. Bit i of the result:
+  // parameter i was beyond its range and is now at its bound, or it was NaN and has not changed.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;
@@ -250,7 +251,7 @@ class springpot_tunable {
     muscle_damper_4_ = muscle_damper_4_share * K_;
     muscle_spring_5_ = muscle_spring_5_share * K_;
     muscle_damper_5_ = muscle_damper_5_share * K_;
-    // x = T k/b
+    // x = h k/B
     muscle_spring_1_muscle_damper_1_ratio_ = muscle_damper_1_ > 0 ? dashpot::clamp_to(largest_ratio,
         muscle_spring_1_ * period / muscle_damper_1_) : (muscle_spring_1_ > 0 ? largest_ratio : zero);
     // φ = (1 − e^(−x))/x
@@ -258,7 +259,7 @@ class springpot_tunable {
     // α = x φ
     muscle_spring_1_muscle_damper_1_loss_ = muscle_spring_1_muscle_damper_1_ratio_ *
         muscle_spring_1_muscle_damper_1_kept_;
-    // x = T k/b
+    // x = h k/B
     muscle_spring_2_muscle_damper_2_ratio_ = muscle_damper_2_ > 0 ? dashpot::clamp_to(largest_ratio,
         muscle_spring_2_ * period / muscle_damper_2_) : (muscle_spring_2_ > 0 ? largest_ratio : zero);
     // φ = (1 − e^(−x))/x
@@ -266,7 +267,7 @@ class springpot_tunable {
     // α = x φ
     muscle_spring_2_muscle_damper_2_loss_ = muscle_spring_2_muscle_damper_2_ratio_ *
         muscle_spring_2_muscle_damper_2_kept_;
-    // x = T k/b
+    // x = h k/B
     muscle_spring_3_muscle_damper_3_ratio_ = muscle_damper_3_ > 0 ? dashpot::clamp_to(largest_ratio,
         muscle_spring_3_ * period / muscle_damper_3_) : (muscle_spring_3_ > 0 ? largest_ratio : zero);
     // φ = (1 − e^(−x))/x
@@ -274,7 +275,7 @@ class springpot_tunable {
     // α = x φ
     muscle_spring_3_muscle_damper_3_loss_ = muscle_spring_3_muscle_damper_3_ratio_ *
         muscle_spring_3_muscle_damper_3_kept_;
-    // x = T k/b
+    // x = h k/B
     muscle_spring_4_muscle_damper_4_ratio_ = muscle_damper_4_ > 0 ? dashpot::clamp_to(largest_ratio,
         muscle_spring_4_ * period / muscle_damper_4_) : (muscle_spring_4_ > 0 ? largest_ratio : zero);
     // φ = (1 − e^(−x))/x
@@ -282,7 +283,7 @@ class springpot_tunable {
     // α = x φ
     muscle_spring_4_muscle_damper_4_loss_ = muscle_spring_4_muscle_damper_4_ratio_ *
         muscle_spring_4_muscle_damper_4_kept_;
-    // x = T k/b
+    // x = h k/B
     muscle_spring_5_muscle_damper_5_ratio_ = muscle_damper_5_ > 0 ? dashpot::clamp_to(largest_ratio,
         muscle_spring_5_ * period / muscle_damper_5_) : (muscle_spring_5_ > 0 ? largest_ratio : zero);
     // φ = (1 − e^(−x))/x
@@ -290,7 +291,7 @@ class springpot_tunable {
     // α = x φ
     muscle_spring_5_muscle_damper_5_loss_ = muscle_spring_5_muscle_damper_5_ratio_ *
         muscle_spring_5_muscle_damper_5_kept_;
-    // g of what joins tool and ground
+    // g of all that joins tool and ground without a slip
     step_stiffness_ = rest + muscle_spring_1_ * muscle_spring_1_muscle_damper_1_kept_ +
         muscle_spring_2_ * muscle_spring_2_muscle_damper_2_kept_ +
         muscle_spring_3_ * muscle_spring_3_muscle_damper_3_kept_ +
@@ -314,7 +315,7 @@ class springpot_tunable {
         muscle_spring_4_muscle_damper_4_elongation_;
     const scalar muscle_spring_5_muscle_damper_5_force_before = muscle_spring_5_muscle_damper_5_carried_stiffness_ *
         muscle_spring_5_muscle_damper_5_elongation_;
-    // F, or F √(k′/k) of a softer spring
+    // F, or F √(k′/k) where the new stiffness k′ is lower
     const scalar muscle_spring_1_muscle_damper_1_force_kept = muscle_spring_1_muscle_damper_1_carried_stiffness_ -
         muscle_spring_1_ > 0 ? (muscle_spring_1_ > 0 ? muscle_spring_1_muscle_damper_1_force_before *
         dashpot::square_root(muscle_spring_1_ / muscle_spring_1_muscle_damper_1_carried_stiffness_) : zero) :
@@ -329,7 +330,7 @@ class springpot_tunable {
     tank_ = tank_ + (muscle_spring_1_ - muscle_spring_1_muscle_damper_1_carried_stiffness_ > 0 ?
         muscle_spring_1_muscle_damper_1_energy_before - muscle_spring_1_muscle_damper_1_energy_after : zero) +
         (muscle_spring_1_ > 0 ? zero : muscle_spring_1_muscle_damper_1_energy_before);
-    // F, or F √(k′/k) of a softer spring
+    // F, or F √(k′/k) where the new stiffness k′ is lower
     const scalar muscle_spring_2_muscle_damper_2_force_kept = muscle_spring_2_muscle_damper_2_carried_stiffness_ -
         muscle_spring_2_ > 0 ? (muscle_spring_2_ > 0 ? muscle_spring_2_muscle_damper_2_force_before *
         dashpot::square_root(muscle_spring_2_ / muscle_spring_2_muscle_damper_2_carried_stiffness_) : zero) :
@@ -344,7 +345,7 @@ class springpot_tunable {
     tank_ = tank_ + (muscle_spring_2_ - muscle_spring_2_muscle_damper_2_carried_stiffness_ > 0 ?
         muscle_spring_2_muscle_damper_2_energy_before - muscle_spring_2_muscle_damper_2_energy_after : zero) +
         (muscle_spring_2_ > 0 ? zero : muscle_spring_2_muscle_damper_2_energy_before);
-    // F, or F √(k′/k) of a softer spring
+    // F, or F √(k′/k) where the new stiffness k′ is lower
     const scalar muscle_spring_3_muscle_damper_3_force_kept = muscle_spring_3_muscle_damper_3_carried_stiffness_ -
         muscle_spring_3_ > 0 ? (muscle_spring_3_ > 0 ? muscle_spring_3_muscle_damper_3_force_before *
         dashpot::square_root(muscle_spring_3_ / muscle_spring_3_muscle_damper_3_carried_stiffness_) : zero) :
@@ -359,7 +360,7 @@ class springpot_tunable {
     tank_ = tank_ + (muscle_spring_3_ - muscle_spring_3_muscle_damper_3_carried_stiffness_ > 0 ?
         muscle_spring_3_muscle_damper_3_energy_before - muscle_spring_3_muscle_damper_3_energy_after : zero) +
         (muscle_spring_3_ > 0 ? zero : muscle_spring_3_muscle_damper_3_energy_before);
-    // F, or F √(k′/k) of a softer spring
+    // F, or F √(k′/k) where the new stiffness k′ is lower
     const scalar muscle_spring_4_muscle_damper_4_force_kept = muscle_spring_4_muscle_damper_4_carried_stiffness_ -
         muscle_spring_4_ > 0 ? (muscle_spring_4_ > 0 ? muscle_spring_4_muscle_damper_4_force_before *
         dashpot::square_root(muscle_spring_4_ / muscle_spring_4_muscle_damper_4_carried_stiffness_) : zero) :
@@ -374,7 +375,7 @@ class springpot_tunable {
     tank_ = tank_ + (muscle_spring_4_ - muscle_spring_4_muscle_damper_4_carried_stiffness_ > 0 ?
         muscle_spring_4_muscle_damper_4_energy_before - muscle_spring_4_muscle_damper_4_energy_after : zero) +
         (muscle_spring_4_ > 0 ? zero : muscle_spring_4_muscle_damper_4_energy_before);
-    // F, or F √(k′/k) of a softer spring
+    // F, or F √(k′/k) where the new stiffness k′ is lower
     const scalar muscle_spring_5_muscle_damper_5_force_kept = muscle_spring_5_muscle_damper_5_carried_stiffness_ -
         muscle_spring_5_ > 0 ? (muscle_spring_5_ > 0 ? muscle_spring_5_muscle_damper_5_force_before *
         dashpot::square_root(muscle_spring_5_ / muscle_spring_5_muscle_damper_5_carried_stiffness_) : zero) :
@@ -405,7 +406,7 @@ class springpot_tunable {
         muscle_spring_1_muscle_damper_1_force_short_size : zero;
     const scalar muscle_spring_1_muscle_damper_1_energy_unpaid = muscle_spring_1_muscle_damper_1_energy_missing -
         tank_;
-    // F, as far as the tank pays
+    // F as before, as far as the energy in the tank allows
     const scalar muscle_spring_1_muscle_damper_1_force_after = muscle_spring_1_muscle_damper_1_falls_short > 0 ?
         (muscle_spring_1_muscle_damper_1_energy_unpaid > 0 ? (muscle_spring_1_muscle_damper_1_force_before > 0 ?
         muscle_spring_1_muscle_damper_1_force_most : minus_one *
@@ -429,7 +430,7 @@ class springpot_tunable {
         muscle_spring_2_muscle_damper_2_force_short_size : zero;
     const scalar muscle_spring_2_muscle_damper_2_energy_unpaid = muscle_spring_2_muscle_damper_2_energy_missing -
         tank_;
-    // F, as far as the tank pays
+    // F as before, as far as the energy in the tank allows
     const scalar muscle_spring_2_muscle_damper_2_force_after = muscle_spring_2_muscle_damper_2_falls_short > 0 ?
         (muscle_spring_2_muscle_damper_2_energy_unpaid > 0 ? (muscle_spring_2_muscle_damper_2_force_before > 0 ?
         muscle_spring_2_muscle_damper_2_force_most : minus_one *
@@ -453,7 +454,7 @@ class springpot_tunable {
         muscle_spring_3_muscle_damper_3_force_short_size : zero;
     const scalar muscle_spring_3_muscle_damper_3_energy_unpaid = muscle_spring_3_muscle_damper_3_energy_missing -
         tank_;
-    // F, as far as the tank pays
+    // F as before, as far as the energy in the tank allows
     const scalar muscle_spring_3_muscle_damper_3_force_after = muscle_spring_3_muscle_damper_3_falls_short > 0 ?
         (muscle_spring_3_muscle_damper_3_energy_unpaid > 0 ? (muscle_spring_3_muscle_damper_3_force_before > 0 ?
         muscle_spring_3_muscle_damper_3_force_most : minus_one *
@@ -477,7 +478,7 @@ class springpot_tunable {
         muscle_spring_4_muscle_damper_4_force_short_size : zero;
     const scalar muscle_spring_4_muscle_damper_4_energy_unpaid = muscle_spring_4_muscle_damper_4_energy_missing -
         tank_;
-    // F, as far as the tank pays
+    // F as before, as far as the energy in the tank allows
     const scalar muscle_spring_4_muscle_damper_4_force_after = muscle_spring_4_muscle_damper_4_falls_short > 0 ?
         (muscle_spring_4_muscle_damper_4_energy_unpaid > 0 ? (muscle_spring_4_muscle_damper_4_force_before > 0 ?
         muscle_spring_4_muscle_damper_4_force_most : minus_one *
@@ -501,7 +502,7 @@ class springpot_tunable {
         muscle_spring_5_muscle_damper_5_force_short_size : zero;
     const scalar muscle_spring_5_muscle_damper_5_energy_unpaid = muscle_spring_5_muscle_damper_5_energy_missing -
         tank_;
-    // F, as far as the tank pays
+    // F as before, as far as the energy in the tank allows
     const scalar muscle_spring_5_muscle_damper_5_force_after = muscle_spring_5_muscle_damper_5_falls_short > 0 ?
         (muscle_spring_5_muscle_damper_5_energy_unpaid > 0 ? (muscle_spring_5_muscle_damper_5_force_before > 0 ?
         muscle_spring_5_muscle_damper_5_force_most : minus_one *
@@ -524,7 +525,7 @@ class springpot_tunable {
     const scalar missing_size = missing_force > 0 ? missing_force : zero - missing_force;
     const scalar is_missing = rest > 0 ? missing_size : zero;
     const scalar energy_left = energy_at_hand - (rest > 0 ? made_up_force * (made_up_force / rest) / two : zero);
-    // F of the static spring
+    // F of the static spring, with what the others have lost
     const scalar rest_force_made_up = is_missing > 0 ? made_up_force : rest_force_before;
     tank_ = is_missing > 0 ? (energy_left > 0 ? energy_left : zero) : tank_;
     const scalar rest_force_change = rest_force_made_up - rest_force_before;
@@ -620,7 +621,7 @@ class springpot_tunable {
     muscle_spring_3_muscle_damper_3_carried_stiffness_ = muscle_spring_3_;
     muscle_spring_4_muscle_damper_4_carried_stiffness_ = muscle_spring_4_;
     muscle_spring_5_muscle_damper_5_carried_stiffness_ = muscle_spring_5_;
-    // π
+    // force if the tool stays
     held_force_ = rest * (rest_elongation_ - rest_offset_) +
         (muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ - muscle_spring_1_ *
         (muscle_spring_1_muscle_damper_1_loss_ * muscle_spring_1_muscle_damper_1_elongation_)) +
@@ -635,9 +636,9 @@ class springpot_tunable {
     return clamped;
   }
 
-  // In the springs, and set free by changes of parameters, after the last update() [J].
+  // Energy in the springs, and set free by changes of parameters, after the last update() [J].
   scalar stored_energy() const noexcept {
-    // V + T: in the springs, and what changes of parameters have set free
+    // V + tank: in the springs, and set free by changes of parameters
     const scalar stored = tank_ +
         rest * (rest_elongation_ - rest_offset_) * (rest_elongation_ - rest_offset_) * half +
         muscle_spring_1_ * muscle_spring_1_muscle_damper_1_elongation_ *
@@ -656,77 +657,77 @@ class springpot_tunable {
  private:
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar rest = 40.0;  // as in the network [N/m]
-  static constexpr scalar muscle_spring_1_share = 0.5529489387983896;  // of K [1]
-  static constexpr scalar muscle_damper_1_share = 12.628169563370793;  // of K [1]
-  static constexpr scalar muscle_spring_2_share = 0.4443552938125914;  // of K [1]
-  static constexpr scalar muscle_damper_2_share = 0.6863981165441095;  // of K [1]
-  static constexpr scalar muscle_spring_3_share = 0.8014436491467305;  // of K [1]
-  static constexpr scalar muscle_damper_3_share = 0.1733444489849207;  // of K [1]
-  static constexpr scalar muscle_spring_4_share = 1.4454917758412602;  // of K [1]
-  static constexpr scalar muscle_damper_4_share = 0.043776778038339514;  // of K [1]
-  static constexpr scalar muscle_spring_5_share = 4.501420953574023;  // of K [1]
-  static constexpr scalar muscle_damper_5_share = 0.014790775209721498;  // of K [1]
-  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // beyond, nothing is left after a sample [1]
-  static constexpr scalar period = 0.001;  // T [s]
-  static constexpr scalar zero = 0.0;  // nothing [1]
-  static constexpr scalar no_damping = 0.0;  // none [N·s/m]
-  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share = 12.628169563370793;  // of K [1]
-  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_2 = 0.6863981165441095;  // of K [1]
-  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_3 = 0.1733444489849207;  // of K [1]
-  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_4 = 0.043776778038339514;  // of K [1]
-  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_5 = 0.014790775209721498;  // of K [1]
+  static constexpr scalar muscle_spring_1_share = 0.5529489387983896;  // factor of K [1]
+  static constexpr scalar muscle_damper_1_share = 12.628169563370793;  // factor of K [1]
+  static constexpr scalar muscle_spring_2_share = 0.4443552938125914;  // factor of K [1]
+  static constexpr scalar muscle_damper_2_share = 0.6863981165441095;  // factor of K [1]
+  static constexpr scalar muscle_spring_3_share = 0.8014436491467305;  // factor of K [1]
+  static constexpr scalar muscle_damper_3_share = 0.1733444489849207;  // factor of K [1]
+  static constexpr scalar muscle_spring_4_share = 1.4454917758412602;  // factor of K [1]
+  static constexpr scalar muscle_damper_4_share = 0.043776778038339514;  // factor of K [1]
+  static constexpr scalar muscle_spring_5_share = 4.501420953574023;  // factor of K [1]
+  static constexpr scalar muscle_damper_5_share = 0.014790775209721498;  // factor of K [1]
+  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // largest x: beyond it nothing is left after a sample [1]
+  static constexpr scalar period = 0.001;  // h, the sample period [s]
+  static constexpr scalar zero = 0.0;  // zero [1]
+  static constexpr scalar no_damping = 0.0;  // zero [N·s/m]
+  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share = 12.628169563370793;  // factor of K [1]
+  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_2 = 0.6863981165441095;  // factor of K [1]
+  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_3 = 0.1733444489849207;  // factor of K [1]
+  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_4 = 0.043776778038339514;  // factor of K [1]
+  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_5 = 0.014790775209721498;  // factor of K [1]
   static constexpr scalar two = 2.0;  // two [1]
   static constexpr scalar minus_one = -1.0;  // minus one [1]
   static constexpr scalar quarter = 0.25;  // a quarter [1]
-  static constexpr scalar retention = 0.9900498337491681;  // what an offset keeps in a sample [1]
+  static constexpr scalar retention = 0.9900498337491681;  // share of r that is left after a sample [1]
   static constexpr scalar half = 0.5;  // a half [1]
   static constexpr dashpot::tunable_range<scalar> tunables[1] = {
       {120.0, 0.0, 400.0},  // K [N/m]
   };
 
-  scalar held_force_ = 0;  // π, what springs hold [N]
+  scalar held_force_ = 0;  // force of the springs if the tool stays [N]
   scalar K_ = 120.0;  // parameter [N/m]
-  scalar muscle_spring_1_ = 66.35387265580675;  // by its share [N/m]
-  scalar muscle_damper_1_ = 1515.3803476044952;  // by its share [N s/m]
-  scalar muscle_spring_2_ = 53.32263525751097;  // by its share [N/m]
-  scalar muscle_damper_2_ = 82.36777398529314;  // by its share [N s/m]
-  scalar muscle_spring_3_ = 96.17323789760766;  // by its share [N/m]
-  scalar muscle_damper_3_ = 20.801333878190487;  // by its share [N s/m]
-  scalar muscle_spring_4_ = 173.4590131009512;  // by its share [N/m]
-  scalar muscle_damper_4_ = 5.253213364600741;  // by its share [N s/m]
-  scalar muscle_spring_5_ = 540.1705144288827;  // by its share [N/m]
-  scalar muscle_damper_5_ = 1.7748930251665798;  // by its share [N s/m]
-  scalar muscle_spring_1_muscle_damper_1_ratio_ = 4.378694283629756e-05;  // a sample over the relaxation time [1]
-  scalar muscle_spring_1_muscle_damper_1_kept_ = 0.9999781068481277;  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_spring_1_muscle_damper_1_loss_ = 4.378598420210802e-05;  // α, what is lost in a sample [1]
-  scalar muscle_spring_2_muscle_damper_2_ratio_ = 0.0006473725424099939;  // a sample over the relaxation time [1]
-  scalar muscle_spring_2_muscle_damper_2_kept_ = 0.9996763835660267;  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_spring_2_muscle_damper_2_loss_ = 0.0006471630420163669;  // α, what is lost in a sample [1]
-  scalar muscle_spring_3_muscle_damper_3_ratio_ = 0.004623416866475189;  // a sample over the relaxation time [1]
-  scalar muscle_spring_3_muscle_damper_3_kept_ = 0.9976918501165674;  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_spring_3_muscle_damper_3_loss_ = 0.0046127453273737745;  // α, what is lost in a sample [1]
-  scalar muscle_spring_4_muscle_damper_4_ratio_ = 0.03301960172983276;  // a sample over the relaxation time [1]
-  scalar muscle_spring_4_muscle_damper_4_kept_ = 0.9836704246251956;  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_spring_4_muscle_damper_4_loss_ = 0.03248040565453943;  // α, what is lost in a sample [1]
-  scalar muscle_spring_5_muscle_damper_5_ratio_ = 0.30433975837962735;  // a sample over the relaxation time [1]
-  scalar muscle_spring_5_muscle_damper_5_kept_ = 0.862160720557397;  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar muscle_spring_5_muscle_damper_5_loss_ = 0.2623897853788436;  // α, what is lost in a sample [1]
-  scalar step_stiffness_ = 891.9493558025447;  // what springs answer in a sample [N/m]
-  scalar rest_elongation_ = 0;  // z [m]
-  scalar muscle_spring_1_muscle_damper_1_elongation_ = 0;  // z [m]
-  scalar muscle_spring_1_muscle_damper_1_carried_stiffness_ = 66.35387265580675;  // k for which the force is what it is [N/m]
-  scalar muscle_spring_2_muscle_damper_2_elongation_ = 0;  // z [m]
-  scalar muscle_spring_2_muscle_damper_2_carried_stiffness_ = 53.32263525751097;  // k for which the force is what it is [N/m]
-  scalar muscle_spring_3_muscle_damper_3_elongation_ = 0;  // z [m]
-  scalar muscle_spring_3_muscle_damper_3_carried_stiffness_ = 96.17323789760766;  // k for which the force is what it is [N/m]
-  scalar muscle_spring_4_muscle_damper_4_elongation_ = 0;  // z [m]
-  scalar muscle_spring_4_muscle_damper_4_carried_stiffness_ = 173.4590131009512;  // k for which the force is what it is [N/m]
-  scalar muscle_spring_5_muscle_damper_5_elongation_ = 0;  // z [m]
-  scalar muscle_spring_5_muscle_damper_5_carried_stiffness_ = 540.1705144288827;  // k for which the force is what it is [N/m]
-  scalar rest_offset_ = 0;  // r, how far its rest length is from home [m]
-  scalar tank_ = 0;  // T, set free by changes of parameters [J]
-  scalar muscle_damper_1_to_muscle_damper_5_sum_ = 1625.577561857746;  // of these together [N s/m]
-  scalar steady_brake_ = 1625.577561857746;  // b of what no slip changes [N·s/m]
+  scalar muscle_spring_1_ = 66.35387265580675;  // the parameter times its factor [N/m]
+  scalar muscle_damper_1_ = 1515.3803476044952;  // the parameter times its factor [N s/m]
+  scalar muscle_spring_2_ = 53.32263525751097;  // the parameter times its factor [N/m]
+  scalar muscle_damper_2_ = 82.36777398529314;  // the parameter times its factor [N s/m]
+  scalar muscle_spring_3_ = 96.17323789760766;  // the parameter times its factor [N/m]
+  scalar muscle_damper_3_ = 20.801333878190487;  // the parameter times its factor [N s/m]
+  scalar muscle_spring_4_ = 173.4590131009512;  // the parameter times its factor [N/m]
+  scalar muscle_damper_4_ = 5.253213364600741;  // the parameter times its factor [N s/m]
+  scalar muscle_spring_5_ = 540.1705144288827;  // the parameter times its factor [N/m]
+  scalar muscle_damper_5_ = 1.7748930251665798;  // the parameter times its factor [N s/m]
+  scalar muscle_spring_1_muscle_damper_1_ratio_ = 4.378694283629756e-05;  // x, the sample period over the relaxation time [1]
+  scalar muscle_spring_1_muscle_damper_1_kept_ = 0.9999781068481277;  // φ, share of a displacement that is left in the spring at the end of the sample [1]
+  scalar muscle_spring_1_muscle_damper_1_loss_ = 4.378598420210802e-05;  // α, share of its elongation that is lost in a sample [1]
+  scalar muscle_spring_2_muscle_damper_2_ratio_ = 0.0006473725424099939;  // x, the sample period over the relaxation time [1]
+  scalar muscle_spring_2_muscle_damper_2_kept_ = 0.9996763835660267;  // φ, share of a displacement that is left in the spring at the end of the sample [1]
+  scalar muscle_spring_2_muscle_damper_2_loss_ = 0.0006471630420163669;  // α, share of its elongation that is lost in a sample [1]
+  scalar muscle_spring_3_muscle_damper_3_ratio_ = 0.004623416866475189;  // x, the sample period over the relaxation time [1]
+  scalar muscle_spring_3_muscle_damper_3_kept_ = 0.9976918501165674;  // φ, share of a displacement that is left in the spring at the end of the sample [1]
+  scalar muscle_spring_3_muscle_damper_3_loss_ = 0.0046127453273737745;  // α, share of its elongation that is lost in a sample [1]
+  scalar muscle_spring_4_muscle_damper_4_ratio_ = 0.03301960172983276;  // x, the sample period over the relaxation time [1]
+  scalar muscle_spring_4_muscle_damper_4_kept_ = 0.9836704246251956;  // φ, share of a displacement that is left in the spring at the end of the sample [1]
+  scalar muscle_spring_4_muscle_damper_4_loss_ = 0.03248040565453943;  // α, share of its elongation that is lost in a sample [1]
+  scalar muscle_spring_5_muscle_damper_5_ratio_ = 0.30433975837962735;  // x, the sample period over the relaxation time [1]
+  scalar muscle_spring_5_muscle_damper_5_kept_ = 0.862160720557397;  // φ, share of a displacement that is left in the spring at the end of the sample [1]
+  scalar muscle_spring_5_muscle_damper_5_loss_ = 0.2623897853788436;  // α, share of its elongation that is lost in a sample [1]
+  scalar step_stiffness_ = 891.9493558025447;  // stiffness of the springs over one sample [N/m]
+  scalar rest_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar muscle_spring_1_muscle_damper_1_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar muscle_spring_1_muscle_damper_1_carried_stiffness_ = 66.35387265580675;  // k after the last change of parameters [N/m]
+  scalar muscle_spring_2_muscle_damper_2_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar muscle_spring_2_muscle_damper_2_carried_stiffness_ = 53.32263525751097;  // k after the last change of parameters [N/m]
+  scalar muscle_spring_3_muscle_damper_3_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar muscle_spring_3_muscle_damper_3_carried_stiffness_ = 96.17323789760766;  // k after the last change of parameters [N/m]
+  scalar muscle_spring_4_muscle_damper_4_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar muscle_spring_4_muscle_damper_4_carried_stiffness_ = 173.4590131009512;  // k after the last change of parameters [N/m]
+  scalar muscle_spring_5_muscle_damper_5_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar muscle_spring_5_muscle_damper_5_carried_stiffness_ = 540.1705144288827;  // k after the last change of parameters [N/m]
+  scalar rest_offset_ = 0;  // r, shift of the spring's rest length [m]
+  scalar tank_ = 0;  // energy set free by changes of parameters, not yet spent [J]
+  scalar muscle_damper_1_to_muscle_damper_5_sum_ = 1625.577561857746;  // sum over these elements [N s/m]
+  scalar steady_brake_ = 1625.577561857746;  // b of the parts that no slip changes [N·s/m]
   scalar velocity_gain_ = -1625.577561857746;  // b∞ − b [N·s/m]
   scalar last_brake_ = 1625.577561857746;  // b of the sample before [N·s/m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]

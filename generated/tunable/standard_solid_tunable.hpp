@@ -3,7 +3,7 @@
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 8 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series,
 //   (spring_1 | B1) turns 100 % of the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven, so that a change of parameters
+// states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -15,18 +15,18 @@
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 3.1e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // tunable: K1 (50 to 800 N/m)
-//   set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs
-//   can pay; but the force of the last sample is still held, so call it right after step() and take the command
-//   from output() of the same sample
+//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
+//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   after step() and take the command from output() of the same sample
 //   b [N·s/m] follows B1
 //   by backward Euler, since their relaxations mix with a tunable or at several slips: spring_1, B1, K2
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 14 additions, 9 multiplications, 3 guards against subnormal numbers; 10 numbers kept between
 //   samples
 // cost of set(): 14 operations for the constants, 67 for the forces of springs and their energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // b57d94149fbc717b05578019de4d32e026e1596c4f3a169d2568b21102a47de3. It belongs to whoever had it
@@ -45,7 +45,7 @@ class standard_solid_tunable {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -62,7 +62,8 @@ class standard_solid_tunable {
     scalar K1 = 200.0;  // 50 to 800 [N/m]
   };
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     spring_1_offset_ = 0;
     tank_ = 0;
@@ -82,7 +83,7 @@ class standard_solid_tunable {
     const scalar spring_1_force = K1_ * (spring_1_elongation_ - spring_1_offset_);
     const scalar K2_force = K2 * K2_elongation_;
     node_1_push_ = zero + spring_1_force - K2_force;
-    // π
+    // force if the tool stays
     held_force_ = spring_1_force - node_1_port_share_ * node_1_push_;
     last_brake_ = steady_brake_;
     sampled_ = false;
@@ -106,7 +107,7 @@ class standard_solid_tunable {
     return {brake, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -121,18 +122,18 @@ class standard_solid_tunable {
         (spring_1_elongation_ - spring_1_offset_after + (spring_1_elongation_ - spring_1_offset_)) * half;
     const scalar spring_1_offset_unpaid = spring_1_offset_cost - tank_;
     tank_ = spring_1_offset_unpaid > 0 ? tank_ : tank_ - spring_1_offset_cost;
-    // r goes home where the tank pays
+    // r moves towards 0 if the tank has the energy for it
     spring_1_offset_ = spring_1_offset_unpaid > 0 ? spring_1_offset_ : spring_1_offset_after;
     const scalar spring_1_force = K1_ * (spring_1_elongation_ - spring_1_offset_);
     const scalar K2_force = K2 * K2_elongation_;
     node_1_push_ = zero + spring_1_force - K2_force;
-    // π
+    // force if the tool stays
     held_force_ = spring_1_force - node_1_port_share_ * node_1_push_;
     // u₋ = u
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
@@ -155,12 +156,12 @@ class standard_solid_tunable {
         (spring_1_elongation_ - spring_1_offset_after + (spring_1_elongation_ - spring_1_offset_)) * half;
     const scalar spring_1_offset_unpaid = spring_1_offset_cost - tank_;
     tank_ = spring_1_offset_unpaid > 0 ? tank_ : tank_ - spring_1_offset_cost;
-    // r goes home where the tank pays
+    // r moves towards 0 if the tank has the energy for it
     spring_1_offset_ = spring_1_offset_unpaid > 0 ? spring_1_offset_ : spring_1_offset_after;
     const scalar spring_1_force = K1_ * (spring_1_elongation_ - spring_1_offset_);
     const scalar K2_force = K2 * K2_elongation_;
     node_1_push_ = zero + spring_1_force - K2_force;
-    // π
+    // force if the tool stays
     held_force_ = spring_1_force - node_1_port_share_ * node_1_push_;
     // u₋ = u
     last_position_ = position;
@@ -168,9 +169,9 @@ class standard_solid_tunable {
     return {brake, force};
   }
 
-  // Right after step(), the command then being that of output() with the same sample and without update(): so the
-  // force from before is held no longer, and a spring that changes injects no energy. Bit i of the result: parameter i
-  // was beyond its range and is at its bound now, or it was NaN and is as it was.
+  // Call this right after step(), and take the command from output() of the same sample without another update(): the
+  // motor then holds the old force no longer, and a spring that changes injects no energy. Bit i of the result:
+  // parameter i was beyond its range and is now at its bound, or it was NaN and has not changed.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;
@@ -181,11 +182,11 @@ class standard_solid_tunable {
     node_1_inverse_ = one - (node_1_quotient - node_1_quotient) > 0 ? node_1_quotient : zero;
     node_1_port_share_ = node_1_to_port * node_1_inverse_;
     const scalar through_node_1 = node_1_port_share_ * K2;
-    // g of what joins tool and ground
+    // g of all that joins tool and ground without a slip
     springs_stiffness_ = zero;
-    // g − b∞/T of meshes
+    // g − b∞/h of the meshes
     mesh_stiffness_ = through_node_1 - zero * rate;
-    // b∞ of meshes
+    // b∞ of the meshes
     mesh_feedthrough_ = zero;
     step_stiffness_ = springs_stiffness_ + mesh_stiffness_;
     // b follows B1
@@ -193,7 +194,7 @@ class standard_solid_tunable {
     // b∞ − b
     velocity_gain_ = mesh_feedthrough_ - steady_brake_;
     const scalar spring_1_force_before = spring_1_carried_stiffness_ * (spring_1_elongation_ - spring_1_offset_);
-    // F, or F √(k′/k) of a softer spring
+    // F, or F √(k′/k) where the new stiffness k′ is lower
     const scalar spring_1_force_kept = spring_1_carried_stiffness_ - K1_ > 0 ? (K1_ > 0 ? spring_1_force_before *
         dashpot::square_root(K1_ / spring_1_carried_stiffness_) : zero) : spring_1_force_before;
     const scalar spring_1_energy_before = spring_1_carried_stiffness_ > 0 ? spring_1_force_before *
@@ -210,7 +211,7 @@ class standard_solid_tunable {
         zero - spring_1_force_short;
     const scalar spring_1_falls_short = K1_ > 0 ? spring_1_force_short_size : zero;
     const scalar spring_1_energy_unpaid = spring_1_energy_missing - tank_;
-    // F, as far as the tank pays
+    // F as before, as far as the energy in the tank allows
     const scalar spring_1_force_after = spring_1_falls_short > 0 ? (spring_1_energy_unpaid > 0 ?
         (spring_1_force_before > 0 ? spring_1_force_most : minus_one *
         spring_1_force_most) : spring_1_force_before) : spring_1_force_kept;
@@ -235,14 +236,14 @@ class standard_solid_tunable {
     const scalar spring_1_force = K1_ * (spring_1_elongation_ - spring_1_offset_);
     const scalar K2_force = K2 * K2_elongation_;
     node_1_push_ = zero + spring_1_force - K2_force;
-    // π
+    // force if the tool stays
     held_force_ = spring_1_force - node_1_port_share_ * node_1_push_;
     return clamped;
   }
 
-  // In the springs, and set free by changes of parameters, after the last update() [J].
+  // Energy in the springs, and set free by changes of parameters, after the last update() [J].
   scalar stored_energy() const noexcept {
-    // V + T: in the springs, and what changes of parameters have set free
+    // V + tank: in the springs, and set free by changes of parameters
     const scalar stored = tank_ +
         K1_ * (spring_1_elongation_ - spring_1_offset_) * (spring_1_elongation_ - spring_1_offset_) * half +
         K2 * K2_elongation_ * K2_elongation_ * half;
@@ -253,33 +254,33 @@ class standard_solid_tunable {
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar B1 = 8.0;  // as in the network [N s/m]
   static constexpr scalar K2 = 600.0;  // as in the network [N/m]
-  static constexpr scalar rate = 1000.0;  // 1/T [Hz]
+  static constexpr scalar rate = 1000.0;  // 1/h [Hz]
   static constexpr scalar zero = 0.0;  // nothing [1]
   static constexpr scalar one = 1.0;  // one [1]
   static constexpr scalar two = 2.0;  // two [1]
   static constexpr scalar minus_one = -1.0;  // minus one [1]
   static constexpr scalar quarter = 0.25;  // a quarter [1]
-  static constexpr scalar retention = 0.9900498337491681;  // what an offset keeps in a sample [1]
+  static constexpr scalar retention = 0.9900498337491681;  // share of r that is left after a sample [1]
   static constexpr scalar half = 0.5;  // a half [1]
   static constexpr dashpot::tunable_range<scalar> tunables[1] = {
       {200.0, 50.0, 800.0},  // K1 [N/m]
   };
 
-  scalar held_force_ = 0;  // π, what springs hold [N]
+  scalar held_force_ = 0;  // force of the springs if the tool stays [N]
   scalar K1_ = 200.0;  // parameter [N/m]
-  scalar springs_stiffness_ = 0;  // what springs answer in a sample [N/m]
-  scalar spring_1_elongation_ = 0;  // z [m]
-  scalar spring_1_carried_stiffness_ = 200.0;  // k for which the force is what it is [N/m]
-  scalar K2_elongation_ = 0;  // z [m]
-  scalar node_1_push_ = 0;  // of springs on an inner node, and what comes to it [N]
-  scalar spring_1_offset_ = 0;  // r, how far its rest length is from home [m]
-  scalar tank_ = 0;  // T, set free by changes of parameters [J]
+  scalar springs_stiffness_ = 0;  // stiffness of the springs over one sample [N/m]
+  scalar spring_1_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar spring_1_carried_stiffness_ = 200.0;  // k after the last change of parameters [N/m]
+  scalar K2_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar node_1_push_ = 0;  // force of the springs on an inner node [N]
+  scalar spring_1_offset_ = 0;  // r, shift of the spring's rest length [m]
+  scalar tank_ = 0;  // energy set free by changes of parameters, not yet spent [J]
   scalar node_1_inverse_ = 0.00011363636363636364;  // of a mesh's elimination [1]
   scalar node_1_port_share_ = 0.9318181818181818;  // of a mesh's elimination [1]
-  scalar mesh_stiffness_ = 559.090909090909;  // what meshes answer in a sample [N/m]
+  scalar mesh_stiffness_ = 559.090909090909;  // stiffness of the meshes over one sample [N/m]
   scalar mesh_feedthrough_ = 0;  // b∞ of the meshes [N·s/m]
-  scalar step_stiffness_ = 559.090909090909;  // what all answer in a sample [N/m]
-  scalar steady_brake_ = 8.0;  // b of what no slip changes [N·s/m]
+  scalar step_stiffness_ = 559.090909090909;  // stiffness of springs and meshes over one sample [N/m]
+  scalar steady_brake_ = 8.0;  // b of the parts that no slip changes [N·s/m]
   scalar velocity_gain_ = -8.0;  // b∞ − b [N·s/m]
   scalar last_brake_ = 8.0;  // b of the sample before [N·s/m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]

@@ -5,7 +5,7 @@
 // brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 % of
 //   the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -16,12 +16,12 @@
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 2e-13 of the
 //   sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 2e-13 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -34,8 +34,8 @@
 
 namespace dashpot::generated {
 
-// Points that each have a network of their own. Every point's numbers are, to the bit, those of a second_order_maxwell with the same
-// samples, whatever the number of points and the registers of the machine.
+// Many points, each with a network of its own. The results of every point are, to the last bit, those of a
+// second_order_maxwell with the same samples, whatever the number of points and the registers of the machine.
 class second_order_maxwell_batch {
  public:
   using scalar = double;
@@ -43,8 +43,8 @@ class second_order_maxwell_batch {
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
   static constexpr scalar damping = 11.0;  // b, the brake's part, of every point
 
-  // Of each point, so many scalars are kept; they lie in blocks of so many points, one state of all after the other: the
-  // memory is read and written in one stream, whatever the number of states.
+  // How many scalars are kept for each point, and how many points make a block. In a block the scalars lie state by state,
+  // so that memory is read and written in one stream.
   static constexpr int states = 3;
   static constexpr int block = 64 / static_cast<int>(sizeof(scalar));
 
@@ -70,22 +70,22 @@ class second_order_maxwell_batch {
   }
 
   // The commands for this sample of all points: positions [m] and velocities [m/s] to forces. Changes no
-  // state: the samples are given to update() once more.
+  // state: pass the same samples to update().
   void output(const scalar* positions, const scalar* velocities, scalar* forces) const noexcept {
     run<true, false>(positions, velocities, forces);
   }
 
-  // Takes the states to the next sample. A point whose sample is not finite stays as it was.
+  // Advances the states to the next sample. A point whose sample is not finite stays as it was.
   void update(const scalar* positions, const scalar* velocities) noexcept {
     run<false, true>(positions, velocities, nullptr);
   }
 
-  // output() and update() in one passage through the memory: 5 scalars read and 4 written a point.
+  // output() and update() in one pass through the memory: 5 scalars read and 4 written a point.
   void step(const scalar* positions, const scalar* velocities, scalar* forces) noexcept {
     run<true, true>(positions, velocities, forces);
   }
 
-  // In the springs of the point [J].
+  // Energy in the springs of the point [J].
   scalar stored_energy(long long point) const noexcept {
     using vector = dashpot::vector<scalar, 1>;
     [[maybe_unused]] const scalar* const state = state_of(point);
@@ -152,9 +152,9 @@ class second_order_maxwell_batch {
     }
   }
 
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 5.0;  // k0 [N/m]
-  static constexpr scalar step_stiffness = 21.977282807459243;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar step_stiffness = 21.977282807459243;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -11.0;  // b∞ − b [N·s/m]
   static constexpr scalar B2_K2_gain = 9.975032378492145;  // a c [N/m]
   static constexpr scalar B1_K1_gain = 11.956880536422767;  // a c [N/m]

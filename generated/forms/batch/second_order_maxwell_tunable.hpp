@@ -5,7 +5,7 @@
 // brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, damper_3 turns 100
 //   % of the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven, so that a change of parameters
+// states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -17,17 +17,17 @@
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 3.9e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
-//   set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs
-//   can pay; but the force of the last sample is still held, so call it right after step() and take the command
-//   from output() of the same sample
+//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
+//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   after step() and take the command from output() of the same sample
 //   b [N·s/m] follows B1 + damper_3
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 15 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers kept between
 //   samples
 // cost of set(): 132 operations for the constants, 107 for the forces of springs and their energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 5c194d7008f5fe1bb0e1c8f01d1156815ca3b1ae3e5903a351efbfbd8297cdca. It belongs to whoever had it
@@ -47,7 +47,7 @@ class second_order_maxwell_tunable {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -65,7 +65,8 @@ class second_order_maxwell_tunable {
     scalar B2 = 6.0;  // 0.5 to 20 [N s/m]
   };
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     B1_spring_2_elongation_ = 0;
     damper_3_K2_elongation_ = 0;
@@ -76,7 +77,7 @@ class second_order_maxwell_tunable {
     sampled_position_change_ = 0;
     // z = u
     K3_elongation_ = last_position_;
-    // π
+    // force if the tool stays
     held_force_ = K3 * (K3_elongation_ - K3_offset_) +
         (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
         (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
@@ -102,7 +103,7 @@ class second_order_maxwell_tunable {
     return {brake, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -119,9 +120,9 @@ class second_order_maxwell_tunable {
         (K3_elongation_ - K3_offset_)) * half;
     const scalar K3_offset_unpaid = K3_offset_cost - tank_;
     tank_ = K3_offset_unpaid > 0 ? tank_ : tank_ - K3_offset_cost;
-    // r goes home where the tank pays
+    // r moves towards 0 if the tank has the energy for it
     K3_offset_ = K3_offset_unpaid > 0 ? K3_offset_ : K3_offset_after;
-    // π
+    // force if the tool stays
     held_force_ = K3 * (K3_elongation_ - K3_offset_) +
         (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
         (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
@@ -129,7 +130,7 @@ class second_order_maxwell_tunable {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
@@ -155,9 +156,9 @@ class second_order_maxwell_tunable {
         (K3_elongation_ - K3_offset_)) * half;
     const scalar K3_offset_unpaid = K3_offset_cost - tank_;
     tank_ = K3_offset_unpaid > 0 ? tank_ : tank_ - K3_offset_cost;
-    // r goes home where the tank pays
+    // r moves towards 0 if the tank has the energy for it
     K3_offset_ = K3_offset_unpaid > 0 ? K3_offset_ : K3_offset_after;
-    // π
+    // force if the tool stays
     held_force_ = K3 * (K3_elongation_ - K3_offset_) +
         (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
         (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
@@ -167,27 +168,27 @@ class second_order_maxwell_tunable {
     return {brake, force};
   }
 
-  // Right after step(), the command then being that of output() with the same sample and without update(): so the
-  // force from before is held no longer, and a spring that changes injects no energy. Bit i of the result: parameter i
-  // was beyond its range and is at its bound now, or it was NaN and is as it was.
+  // Call this right after step(), and take the command from output() of the same sample without another update(): the
+  // motor then holds the old force no longer, and a spring that changes injects no energy. Bit i of the result:
+  // parameter i was beyond its range and is now at its bound, or it was NaN and has not changed.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;
     clamped |= dashpot::take_value(tunables[0], wanted.K1, K1_) << 0;
     clamped |= dashpot::take_value(tunables[1], wanted.B2, B2_) << 1;
-    // x = T k/b
+    // x = h k/B
     B1_spring_2_ratio_ = dashpot::clamp_to(largest_ratio, K1_ * period / B1);
     // φ = (1 − e^(−x))/x
     B1_spring_2_kept_ = dashpot::mean_decay(B1_spring_2_ratio_);
     // α = x φ
     B1_spring_2_loss_ = B1_spring_2_ratio_ * B1_spring_2_kept_;
-    // x = T k/b
+    // x = h k/B
     damper_3_K2_ratio_ = dashpot::clamp_to(largest_ratio, K2 * period / B2_);
     // φ = (1 − e^(−x))/x
     damper_3_K2_kept_ = dashpot::mean_decay(damper_3_K2_ratio_);
     // α = x φ
     damper_3_K2_loss_ = damper_3_K2_ratio_ * damper_3_K2_kept_;
-    // g of what joins tool and ground
+    // g of all that joins tool and ground without a slip
     step_stiffness_ = K3 + K1_ * B1_spring_2_kept_ + K2 * damper_3_K2_kept_;
     B1_damper_3_sum_ = B1_damper_3 + B2_;
     // b follows B1 + damper_3
@@ -196,7 +197,7 @@ class second_order_maxwell_tunable {
     velocity_gain_ = no_damping - steady_brake_;
     const scalar K3_force_before = K3 * (K3_elongation_ - K3_offset_);
     const scalar B1_spring_2_force_before = B1_spring_2_carried_stiffness_ * B1_spring_2_elongation_;
-    // F, or F √(k′/k) of a softer spring
+    // F, or F √(k′/k) where the new stiffness k′ is lower
     const scalar B1_spring_2_force_kept = B1_spring_2_carried_stiffness_ - K1_ > 0 ? (K1_ > 0 ?
         B1_spring_2_force_before *
         dashpot::square_root(K1_ / B1_spring_2_carried_stiffness_) : zero) : B1_spring_2_force_before;
@@ -215,7 +216,7 @@ class second_order_maxwell_tunable {
         zero - B1_spring_2_force_short;
     const scalar B1_spring_2_falls_short = K1_ > 0 ? B1_spring_2_force_short_size : zero;
     const scalar B1_spring_2_energy_unpaid = B1_spring_2_energy_missing - tank_;
-    // F, as far as the tank pays
+    // F as before, as far as the energy in the tank allows
     const scalar B1_spring_2_force_after = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ?
         (B1_spring_2_force_before > 0 ? B1_spring_2_force_most : minus_one *
         B1_spring_2_force_most) : B1_spring_2_force_before) : B1_spring_2_force_kept;
@@ -232,7 +233,7 @@ class second_order_maxwell_tunable {
     const scalar missing_size = missing_force > 0 ? missing_force : zero - missing_force;
     const scalar is_missing = K3 > 0 ? missing_size : zero;
     const scalar energy_left = energy_at_hand - (K3 > 0 ? made_up_force * (made_up_force / K3) / two : zero);
-    // F of the static spring
+    // F of the static spring, with what the others have lost
     const scalar K3_force_made_up = is_missing > 0 ? made_up_force : K3_force_before;
     tank_ = is_missing > 0 ? (energy_left > 0 ? energy_left : zero) : tank_;
     const scalar K3_force_change = K3_force_made_up - K3_force_before;
@@ -253,16 +254,16 @@ class second_order_maxwell_tunable {
     B1_spring_2_elongation_ = B1_spring_2_is_changed > 0 ? (K1_ > 0 ? B1_spring_2_force_after / K1_ : zero) :
         B1_spring_2_elongation_;
     B1_spring_2_carried_stiffness_ = K1_;
-    // π
+    // force if the tool stays
     held_force_ = K3 * (K3_elongation_ - K3_offset_) +
         (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
         (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
     return clamped;
   }
 
-  // In the springs, and set free by changes of parameters, after the last update() [J].
+  // Energy in the springs, and set free by changes of parameters, after the last update() [J].
   scalar stored_energy() const noexcept {
-    // V + T: in the springs, and what changes of parameters have set free
+    // V + tank: in the springs, and set free by changes of parameters
     const scalar stored = tank_ + K3 * (K3_elongation_ - K3_offset_) * (K3_elongation_ - K3_offset_) * half +
         K1_ * B1_spring_2_elongation_ * B1_spring_2_elongation_ * half +
         K2 * damper_3_K2_elongation_ * damper_3_K2_elongation_ * half;
@@ -274,39 +275,39 @@ class second_order_maxwell_tunable {
   static constexpr scalar K3 = 5.0;  // as in the network [N/m]
   static constexpr scalar B1 = 5.0;  // as in the network [N s/m]
   static constexpr scalar K2 = 10.0;  // as in the network [N/m]
-  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // beyond, nothing is left after a sample [1]
-  static constexpr scalar period = 0.001;  // T [s]
-  static constexpr scalar no_damping = 0.0;  // none [N·s/m]
-  static constexpr scalar B1_damper_3 = 5.0;  // of what does not change [N s/m]
+  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // largest x: beyond it nothing is left after a sample [1]
+  static constexpr scalar period = 0.001;  // h, the sample period [s]
+  static constexpr scalar no_damping = 0.0;  // zero [N·s/m]
+  static constexpr scalar B1_damper_3 = 5.0;  // sum of the values that do not change [N s/m]
   static constexpr scalar zero = 0.0;  // nothing [1]
   static constexpr scalar two = 2.0;  // two [1]
   static constexpr scalar minus_one = -1.0;  // minus one [1]
   static constexpr scalar quarter = 0.25;  // a quarter [1]
-  static constexpr scalar retention = 0.9900498337491681;  // what an offset keeps in a sample [1]
+  static constexpr scalar retention = 0.9900498337491681;  // share of r that is left after a sample [1]
   static constexpr scalar half = 0.5;  // a half [1]
   static constexpr dashpot::tunable_range<scalar> tunables[2] = {
       {12.0, 0.0, 100.0},  // K1 [N/m]
       {6.0, 0.5, 20.0},  // B2 [N s/m]
   };
 
-  scalar held_force_ = 0;  // π, what springs hold [N]
+  scalar held_force_ = 0;  // force of the springs if the tool stays [N]
   scalar K1_ = 12.0;  // parameter [N/m]
   scalar B2_ = 6.0;  // parameter [N s/m]
-  scalar B1_spring_2_ratio_ = 0.0024000000000000002;  // a sample over the relaxation time [1]
-  scalar B1_spring_2_kept_ = 0.9988009594242764;  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar B1_spring_2_loss_ = 0.0023971223026182636;  // α, what is lost in a sample [1]
-  scalar damper_3_K2_ratio_ = 0.0016666666666666668;  // a sample over the relaxation time [1]
-  scalar damper_3_K2_kept_ = 0.9991671294367926;  // φ, of a displacement within a sample, what its spring has at the end [1]
-  scalar damper_3_K2_loss_ = 0.0016652785490613212;  // α, what is lost in a sample [1]
-  scalar step_stiffness_ = 26.977282807459243;  // what springs answer in a sample [N/m]
-  scalar K3_elongation_ = 0;  // z [m]
-  scalar B1_spring_2_elongation_ = 0;  // z [m]
-  scalar B1_spring_2_carried_stiffness_ = 12.0;  // k for which the force is what it is [N/m]
-  scalar damper_3_K2_elongation_ = 0;  // z [m]
-  scalar K3_offset_ = 0;  // r, how far its rest length is from home [m]
-  scalar tank_ = 0;  // T, set free by changes of parameters [J]
-  scalar B1_damper_3_sum_ = 11.0;  // of these together [N s/m]
-  scalar steady_brake_ = 11.0;  // b of what no slip changes [N·s/m]
+  scalar B1_spring_2_ratio_ = 0.0024000000000000002;  // x, the sample period over the relaxation time [1]
+  scalar B1_spring_2_kept_ = 0.9988009594242764;  // φ, share of a displacement that is left in the spring at the end of the sample [1]
+  scalar B1_spring_2_loss_ = 0.0023971223026182636;  // α, share of its elongation that is lost in a sample [1]
+  scalar damper_3_K2_ratio_ = 0.0016666666666666668;  // x, the sample period over the relaxation time [1]
+  scalar damper_3_K2_kept_ = 0.9991671294367926;  // φ, share of a displacement that is left in the spring at the end of the sample [1]
+  scalar damper_3_K2_loss_ = 0.0016652785490613212;  // α, share of its elongation that is lost in a sample [1]
+  scalar step_stiffness_ = 26.977282807459243;  // stiffness of the springs over one sample [N/m]
+  scalar K3_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar B1_spring_2_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar B1_spring_2_carried_stiffness_ = 12.0;  // k after the last change of parameters [N/m]
+  scalar damper_3_K2_elongation_ = 0;  // z, elongation of the spring [m]
+  scalar K3_offset_ = 0;  // r, shift of the spring's rest length [m]
+  scalar tank_ = 0;  // energy set free by changes of parameters, not yet spent [J]
+  scalar B1_damper_3_sum_ = 11.0;  // sum over these elements [N s/m]
+  scalar steady_brake_ = 11.0;  // b of the parts that no slip changes [N·s/m]
   scalar velocity_gain_ = -11.0;  // b∞ − b [N·s/m]
   scalar last_brake_ = 11.0;  // b of the sample before [N·s/m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]

@@ -5,7 +5,7 @@
 // brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, damper_3 turns 100
 //   % of the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven, so that a change of parameters
+// states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -17,17 +17,17 @@
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 3.9e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
-//   set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs
-//   can pay; but the force of the last sample is still held, so call it right after step() and take the command
-//   from output() of the same sample
+//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
+//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   after step() and take the command from output() of the same sample
 //   b [N·s/m] follows B1 + damper_3
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 15 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers kept between
 //   samples
 // cost of set(): 132 operations for the constants, 107 for the forces of springs and their energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 5c194d7008f5fe1bb0e1c8f01d1156815ca3b1ae3e5903a351efbfbd8297cdca. It belongs to whoever had it
@@ -42,8 +42,8 @@
 
 namespace dashpot::generated {
 
-// Points that each have a network of their own. Every point's numbers are, to the bit, those of a second_order_maxwell_tunable with the same
-// samples, whatever the number of points and the registers of the machine.
+// Many points, each with a network of its own. The results of every point are, to the last bit, those of a
+// second_order_maxwell_tunable with the same samples, whatever the number of points and the registers of the machine.
 class second_order_maxwell_tunable_batch {
  public:
   using scalar = double;
@@ -55,8 +55,8 @@ class second_order_maxwell_tunable_batch {
     scalar B2 = 6.0;  // 0.5 to 20 [N s/m]
   };
 
-  // Of each point, so many scalars are kept; they lie in blocks of so many points, one state of all after the other: the
-  // memory is read and written in one stream, whatever the number of states.
+  // How many scalars are kept for each point, and how many points make a block. In a block the scalars lie state by state,
+  // so that memory is read and written in one stream.
   static constexpr int states = 18;
   static constexpr int block = 64 / static_cast<int>(sizeof(scalar));
 
@@ -97,7 +97,7 @@ class second_order_maxwell_tunable_batch {
     scalar last_brake_ = state[17 * block];
     // z = u
     K3_elongation_ = last_position_;
-    // π
+    // force if the tool stays
     held_force_ = K3 * (K3_elongation_ - K3_offset_) +
         (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
         (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
@@ -107,9 +107,9 @@ class second_order_maxwell_tunable_batch {
     put(state, 17, last_brake_);
   }
 
-  // Of one point, right after step(), the commands then being those of output() with the same samples: so
-  // the force from before is held no longer, and a spring that changes injects no energy. Bit i of the result:
-  // parameter i was beyond its range and is at its bound now, or it was NaN and is as it was.
+  // For one point. Call this right after step(), and take the commands from output() of the same samples: the
+  // motor then holds the old force no longer, and a spring that changes injects no energy. Bit i of the result:
+  // parameter i was beyond its range and is now at its bound, or it was NaN and has not changed.
   unsigned set(long long point, const parameters& wanted) noexcept {
     scalar* const state = state_of(point);
     scalar held_force_ = state[0 * block];
@@ -131,19 +131,19 @@ class second_order_maxwell_tunable_batch {
     unsigned clamped = 0;
     clamped |= dashpot::take_value(tunables[0], wanted.K1, K1_) << 0;
     clamped |= dashpot::take_value(tunables[1], wanted.B2, B2_) << 1;
-    // x = T k/b
+    // x = h k/B
     const scalar B1_spring_2_ratio_ = dashpot::clamp_to(largest_ratio, K1_ * period / B1);
     // φ = (1 − e^(−x))/x
     B1_spring_2_kept_ = dashpot::mean_decay(B1_spring_2_ratio_);
     // α = x φ
     B1_spring_2_loss_ = B1_spring_2_ratio_ * B1_spring_2_kept_;
-    // x = T k/b
+    // x = h k/B
     const scalar damper_3_K2_ratio_ = dashpot::clamp_to(largest_ratio, K2 * period / B2_);
     // φ = (1 − e^(−x))/x
     damper_3_K2_kept_ = dashpot::mean_decay(damper_3_K2_ratio_);
     // α = x φ
     damper_3_K2_loss_ = damper_3_K2_ratio_ * damper_3_K2_kept_;
-    // g of what joins tool and ground
+    // g of all that joins tool and ground without a slip
     step_stiffness_ = K3 + K1_ * B1_spring_2_kept_ + K2 * damper_3_K2_kept_;
     const scalar B1_damper_3_sum_ = B1_damper_3 + B2_;
     // b follows B1 + damper_3
@@ -152,7 +152,7 @@ class second_order_maxwell_tunable_batch {
     velocity_gain_ = no_damping - steady_brake_;
     const scalar K3_force_before = K3 * (K3_elongation_ - K3_offset_);
     const scalar B1_spring_2_force_before = B1_spring_2_carried_stiffness_ * B1_spring_2_elongation_;
-    // F, or F √(k′/k) of a softer spring
+    // F, or F √(k′/k) where the new stiffness k′ is lower
     const scalar B1_spring_2_force_kept = B1_spring_2_carried_stiffness_ - K1_ > 0 ? (K1_ > 0 ?
         B1_spring_2_force_before *
         dashpot::square_root(K1_ / B1_spring_2_carried_stiffness_) : zero) : B1_spring_2_force_before;
@@ -171,7 +171,7 @@ class second_order_maxwell_tunable_batch {
         zero - B1_spring_2_force_short;
     const scalar B1_spring_2_falls_short = K1_ > 0 ? B1_spring_2_force_short_size : zero;
     const scalar B1_spring_2_energy_unpaid = B1_spring_2_energy_missing - tank_;
-    // F, as far as the tank pays
+    // F as before, as far as the energy in the tank allows
     const scalar B1_spring_2_force_after = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ?
         (B1_spring_2_force_before > 0 ? B1_spring_2_force_most : minus_one *
         B1_spring_2_force_most) : B1_spring_2_force_before) : B1_spring_2_force_kept;
@@ -188,7 +188,7 @@ class second_order_maxwell_tunable_batch {
     const scalar missing_size = missing_force > 0 ? missing_force : zero - missing_force;
     const scalar is_missing = K3 > 0 ? missing_size : zero;
     const scalar energy_left = energy_at_hand - (K3 > 0 ? made_up_force * (made_up_force / K3) / two : zero);
-    // F of the static spring
+    // F of the static spring, with what the others have lost
     const scalar K3_force_made_up = is_missing > 0 ? made_up_force : K3_force_before;
     tank_ = is_missing > 0 ? (energy_left > 0 ? energy_left : zero) : tank_;
     const scalar K3_force_change = K3_force_made_up - K3_force_before;
@@ -209,7 +209,7 @@ class second_order_maxwell_tunable_batch {
     B1_spring_2_elongation_ = B1_spring_2_is_changed > 0 ? (K1_ > 0 ? B1_spring_2_force_after / K1_ : zero) :
         B1_spring_2_elongation_;
     B1_spring_2_carried_stiffness_ = K1_;
-    // π
+    // force if the tool stays
     held_force_ = K3 * (K3_elongation_ - K3_offset_) +
         (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
         (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
@@ -231,22 +231,22 @@ class second_order_maxwell_tunable_batch {
   }
 
   // The commands for this sample of all points: positions [m] and velocities [m/s] to forces and dampings. Changes no
-  // state: the samples are given to update() once more.
+  // state: pass the same samples to update().
   void output(const scalar* positions, const scalar* velocities, scalar* dampings, scalar* forces) const noexcept {
     run<true, false>(positions, velocities, dampings, forces);
   }
 
-  // Takes the states to the next sample. A point whose sample is not finite stays as it was.
+  // Advances the states to the next sample. A point whose sample is not finite stays as it was.
   void update(const scalar* positions, const scalar* velocities) noexcept {
     run<false, true>(positions, velocities, nullptr, nullptr);
   }
 
-  // output() and update() in one passage through the memory: 18 scalars read and 10 written a point.
+  // output() and update() in one pass through the memory: 18 scalars read and 10 written a point.
   void step(const scalar* positions, const scalar* velocities, scalar* dampings, scalar* forces) noexcept {
     run<true, true>(positions, velocities, dampings, forces);
   }
 
-  // In the springs of the point [J].
+  // Energy in the springs of the point [J].
   scalar stored_energy(long long point) const noexcept {
     using vector = dashpot::vector<scalar, 1>;
     [[maybe_unused]] const scalar* const state = state_of(point);
@@ -256,7 +256,7 @@ class second_order_maxwell_tunable_batch {
     const vector damper_3_K2_elongation_ = vector::at(state, 11 * block);
     const vector K3_offset_ = vector::at(state, 12 * block);
     const vector tank_ = vector::at(state, 13 * block);
-    // V + T: in the springs, and what changes of parameters have set free
+    // V + tank: in the springs, and set free by changes of parameters
     const vector stored = tank_ + K3 * (K3_elongation_ - K3_offset_) * (K3_elongation_ - K3_offset_) * half +
         K1_ * B1_spring_2_elongation_ * B1_spring_2_elongation_ * half +
         K2 * damper_3_K2_elongation_ * damper_3_K2_elongation_ * half;
@@ -286,19 +286,19 @@ class second_order_maxwell_tunable_batch {
   void points_from(long long point, const scalar* positions, const scalar* velocities, scalar* dampings, scalar* forces) const noexcept {
     [[maybe_unused]] scalar* const state = state_of(point);
     const vector position = vector::at(positions, point), velocity = vector::at(velocities, point);
-    vector held_force_ = vector::at(state, 0 * block);  // π, what springs hold [N]
+    vector held_force_ = vector::at(state, 0 * block);  // force of the springs if the tool stays [N]
     vector K1_ = vector::at(state, 1 * block);  // parameter [N/m]
-    vector B1_spring_2_kept_ = vector::at(state, 3 * block);  // φ, of a displacement within a sample, what its spring has at the end [1]
-    vector B1_spring_2_loss_ = vector::at(state, 4 * block);  // α, what is lost in a sample [1]
-    vector damper_3_K2_kept_ = vector::at(state, 5 * block);  // φ, of a displacement within a sample, what its spring has at the end [1]
-    vector damper_3_K2_loss_ = vector::at(state, 6 * block);  // α, what is lost in a sample [1]
-    vector step_stiffness_ = vector::at(state, 7 * block);  // what springs answer in a sample [N/m]
-    vector K3_elongation_ = vector::at(state, 8 * block);  // z [m]
-    vector B1_spring_2_elongation_ = vector::at(state, 9 * block);  // z [m]
-    vector damper_3_K2_elongation_ = vector::at(state, 11 * block);  // z [m]
-    vector K3_offset_ = vector::at(state, 12 * block);  // r, how far its rest length is from home [m]
-    vector tank_ = vector::at(state, 13 * block);  // T, set free by changes of parameters [J]
-    vector steady_brake_ = vector::at(state, 14 * block);  // b of what no slip changes [N·s/m]
+    vector B1_spring_2_kept_ = vector::at(state, 3 * block);  // φ, share of a displacement that is left in the spring at the end of the sample [1]
+    vector B1_spring_2_loss_ = vector::at(state, 4 * block);  // α, share of its elongation that is lost in a sample [1]
+    vector damper_3_K2_kept_ = vector::at(state, 5 * block);  // φ, share of a displacement that is left in the spring at the end of the sample [1]
+    vector damper_3_K2_loss_ = vector::at(state, 6 * block);  // α, share of its elongation that is lost in a sample [1]
+    vector step_stiffness_ = vector::at(state, 7 * block);  // stiffness of the springs over one sample [N/m]
+    vector K3_elongation_ = vector::at(state, 8 * block);  // z, elongation of the spring [m]
+    vector B1_spring_2_elongation_ = vector::at(state, 9 * block);  // z, elongation of the spring [m]
+    vector damper_3_K2_elongation_ = vector::at(state, 11 * block);  // z, elongation of the spring [m]
+    vector K3_offset_ = vector::at(state, 12 * block);  // r, shift of the spring's rest length [m]
+    vector tank_ = vector::at(state, 13 * block);  // energy set free by changes of parameters, not yet spent [J]
+    vector steady_brake_ = vector::at(state, 14 * block);  // b of the parts that no slip changes [N·s/m]
     vector velocity_gain_ = vector::at(state, 15 * block);  // b∞ − b [N·s/m]
     vector last_position_ = vector::at(state, 16 * block);  // u of the sample before [m]
     vector last_brake_ = vector::at(state, 17 * block);  // b of the sample before [N·s/m]
@@ -330,9 +330,9 @@ class second_order_maxwell_tunable_batch {
           (K3_elongation_ - K3_offset_)) * half;
       const vector K3_offset_unpaid = K3_offset_cost - tank_;
       tank_ = vector::where(K3_offset_unpaid, tank_, tank_ - K3_offset_cost);
-      // r goes home where the tank pays
+      // r moves towards 0 if the tank has the energy for it
       K3_offset_ = vector::where(K3_offset_unpaid, K3_offset_, K3_offset_after);
-      // π
+      // force if the tool stays
       held_force_ = K3 * (K3_elongation_ - K3_offset_) +
           (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
           (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
@@ -349,7 +349,7 @@ class second_order_maxwell_tunable_batch {
     }
   }
 
-  // Every point's parameters are those that are there to begin with.
+  // All points get the initial values of the parameters.
   void begin() noexcept {
     for (long long point = 0; point < points_; ++point) {
       for (int number = 0; number < states; ++number) put(state_of(point), number, 0);
@@ -357,19 +357,19 @@ class second_order_maxwell_tunable_batch {
     }
   }
 
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar K3 = 5.0;  // as in the network [N/m]
   static constexpr scalar B1 = 5.0;  // as in the network [N s/m]
   static constexpr scalar K2 = 10.0;  // as in the network [N/m]
-  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // beyond, nothing is left after a sample [1]
-  static constexpr scalar period = 0.001;  // T [s]
-  static constexpr scalar no_damping = 0.0;  // none [N·s/m]
-  static constexpr scalar B1_damper_3 = 5.0;  // of what does not change [N s/m]
+  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // largest x: beyond it nothing is left after a sample [1]
+  static constexpr scalar period = 0.001;  // h, the sample period [s]
+  static constexpr scalar no_damping = 0.0;  // zero [N·s/m]
+  static constexpr scalar B1_damper_3 = 5.0;  // sum of the values that do not change [N s/m]
   static constexpr scalar zero = 0.0;  // nothing [1]
   static constexpr scalar two = 2.0;  // two [1]
   static constexpr scalar minus_one = -1.0;  // minus one [1]
   static constexpr scalar quarter = 0.25;  // a quarter [1]
-  static constexpr scalar retention = 0.9900498337491681;  // what an offset keeps in a sample [1]
+  static constexpr scalar retention = 0.9900498337491681;  // share of r that is left after a sample [1]
   static constexpr scalar half = 0.5;  // a half [1]
   static constexpr dashpot::tunable_range<scalar> tunables[2] = {
       {12.0, 0.0, 100.0},  // K1 [N/m]

@@ -2,11 +2,12 @@
 //
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
-// brake: makes b = 12 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by
-//   the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in parallel add
+// brake: makes b = 12 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
+//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in
+//   parallel add
 // behind friction: velocity-free, parameters change while it runs; b is that of their default values; b = 0 N·s/m
 //   stuck, 0 sliding
-// states: what is kept of the past follows the measured position (position driven, so that a change of parameters
+// states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -19,17 +20,17 @@
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 1.4e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
-//   set() by itself brings no energy in: a rise of stiffness while the tool presses stays owed until the springs
-//   can pay; but the force of the last sample is still held, so call it right after step() and take the command
-//   from output() of the same sample
+//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
+//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   after step() and take the command from output() of the same sample
 //   b [N·s/m] follows damper_3
 // cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 1 multiplication, 1 guard against subnormal numbers; 9 numbers kept between
 //   samples
 // cost of set(): 7 operations for the constants, 53 for the forces of springs and their energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // c86fcb8b7c393e3b623d21078d88e80af59e3eaf3833b10700b69af0c86379ba. It belongs to whoever had it
@@ -151,19 +152,19 @@ typedef struct friction_tunable_parameters {
 } friction_tunable_parameters;
 
 typedef struct friction_tunable {
-  double held_force;  // π, what springs hold [N]
+  double held_force;  // force of the springs if the tool stays [N]
   double yield;  // parameter [N]
   double presliding;  // parameter [N/m]
   double drag;  // parameter [N s/m]
-  double step_stiffness;  // what springs answer in a sample [N/m]
-  double spring_2_elongation;  // z [m]
-  double spring_2_carried_stiffness;  // k for which the force is what it is [N/m]
-  double spring_2_held;  // π, what the block holds [N]
-  double tank;  // T, set free by changes of parameters [J]
+  double step_stiffness;  // stiffness of the springs over one sample [N/m]
+  double spring_2_elongation;  // z, elongation of the spring [m]
+  double spring_2_carried_stiffness;  // k after the last change of parameters [N/m]
+  double spring_2_held;  // force if the block keeps its length [N]
+  double tank;  // energy set free by changes of parameters, not yet spent [J]
   double friction_yield;  // Y [N]
-  double spring_2_answer;  // g of the block [N/m]
+  double spring_2_answer;  // g, stiffness of the block over one sample [N/m]
   double spring_2_given_way;  // δ for each newton that the slip does not hold [m/N]
-  double steady_brake;  // b of what no slip changes [N·s/m]
+  double steady_brake;  // b of the parts that no slip changes [N·s/m]
   double velocity_gain;  // b∞ − b [N·s/m]
   double last_position;  // u of the sample before [m]
   double last_brake;  // b of the sample before [N·s/m]
@@ -182,7 +183,7 @@ static inline const char *friction_tunable_estimator(void) { return "exact"; }
 static inline unsigned friction_tunable_loop_delay(void) { return 0u; }  // [samples]
 static inline int friction_tunable_is_certified(void) { return 0; }  // on that device, or on an ideal one
 
-// The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+// The part of the brake's command that was added for passivity: it is felt in addition to the network.
 static inline double friction_tunable_added_damping(void) { return 0.0; }
 
 static inline int friction_tunable_parameter_count(void) { return 3; }
@@ -217,8 +218,8 @@ static inline double friction_tunable_parameter_max(int i) {
   return 0;
 }
 
-// At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
-// treated as 0. Parameters stay as they are.
+// Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+// infinite position counts as 0. Parameters stay as they are.
 static inline void friction_tunable_reset(friction_tunable *self, double position) {
   const double zero = 0.0;  // nothing [1]
   self->held_force = 0.0;
@@ -230,13 +231,13 @@ static inline void friction_tunable_reset(friction_tunable *self, double positio
   self->sampled_position = 0.0;
   self->sampled_position_change = 0.0;
   self->sampled_spring_2_stretched = 0.0;
-  // π
+  // force if the tool stays
   self->held_force = zero;
   self->last_brake = self->steady_brake;
   self->sampled = 0;
 }
 
-// At rest at 0, with the parameters' values of the network's file. To be called before all others.
+// Starts at rest at 0, with the parameters' values of the network's file. Call it before all other functions.
 static inline void friction_tunable_init(friction_tunable *self) {
   self->yield = 1.5;
   self->presliding = 2000.0;
@@ -258,11 +259,11 @@ static inline dashpot_command friction_tunable_output(friction_tunable *self, do
   dashpot_command command;
   // Δu = u − u₋
   const double position_change = position - self->last_position;
-  // t, the slip's force if it held
+  // force of the slip if it held
   const double friction_trial = self->spring_2_answer * position_change + self->spring_2_held;
-  // s = clamp(t, ±Y)
+  // clamp(trial, ±Y)
   const double friction_force = dashpot_clamp_to(self->friction_yield, friction_trial);
-  // r = t − s
+  // excess = trial − force
   const double friction_excess = friction_trial - friction_force;
   // δ of the block
   const double spring_2_stretched = position_change + self->spring_2_given_way * friction_excess;
@@ -288,17 +289,17 @@ static inline dashpot_command friction_tunable_output(friction_tunable *self, do
   return command;
 }
 
-// Takes the states to the next sample; to be called once after each friction_tunable_output(), when the command has left.
+// Advances the states to the next sample. Call it once after each friction_tunable_output(), when the command has been sent.
 static inline void friction_tunable_update(friction_tunable *self) {
   if (self->sampled != 0) {
-    const double threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+    const double threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
     const double zero = 0.0;  // nothing [1]
     // z ← z + δ
     self->spring_2_elongation = dashpot_flush_below(threshold, self->spring_2_elongation +
         self->sampled_spring_2_stretched);
-    // π
+    // force if the tool stays
     self->held_force = zero;
-    // π of the block
+    // force if the block keeps its length
     self->spring_2_held = self->presliding * self->spring_2_elongation;
     // u₋ = u
     self->last_position = self->sampled_position;
@@ -306,7 +307,7 @@ static inline void friction_tunable_update(friction_tunable *self) {
   }
 }
 
-// output() and then update(), where nothing else has to happen in between.
+// output() and then update() in one call.
 static inline dashpot_command friction_tunable_step(friction_tunable *self, double position, double velocity) {
   const dashpot_command command = friction_tunable_output(self, position, velocity);
   friction_tunable_update(self);
@@ -321,10 +322,10 @@ static inline double friction_tunable_parameter(const friction_tunable *self, in
   return 0;
 }
 
-// Parameters in turn. Call it right after the step of a sample, and take the command from the output of that sample
-// without another update: so the force from before is held no longer, and a spring that changes injects no energy.
-// Bit i of the result: parameter i was beyond its range and is at its bound now, or it was NaN and is as it was. What
-// waits for an update belongs to the parameters before.
+// Sets all parameters, in their order. Call it right after the step of a sample, and take the command from the output of
+// that sample without another update: the motor then holds the old force no longer, and a spring that changes injects no
+// energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and has not
+// changed. An update that is still due is done first, with the old parameters.
 static inline unsigned friction_tunable_set_values(friction_tunable *self, const double *wanted) {
   friction_tunable_update(self);
   unsigned clamped = 0u;
@@ -332,12 +333,12 @@ static inline unsigned friction_tunable_set_values(friction_tunable *self, const
   clamped |= friction_tunable_take_value(&friction_tunable_ranges[1], wanted[1], &self->presliding) << 1;
   clamped |= friction_tunable_take_value(&friction_tunable_ranges[2], wanted[2], &self->drag) << 2;
   const double zero = 0.0;  // nothing [1]
-  const double spring_2_least_answer = 0.0002980232238769531;  // g, no less whatever the parameters are [N/m]
-  const double friction_least_yield = 2.980232238769531e-07;  // Y, no less whatever the parameters are [N]
+  const double spring_2_least_answer = 0.0002980232238769531;  // smallest g, whatever the parameters are [N/m]
+  const double friction_least_yield = 2.980232238769531e-07;  // smallest Y, whatever the parameters are [N]
   const double one = 1.0;  // one [1]
   const double two = 2.0;  // two [1]
   const double minus_one = -1.0;  // minus one [1]
-  // g of what joins tool and ground
+  // g of all that joins tool and ground without a slip
   self->step_stiffness = zero;
   self->friction_yield = (self->yield - friction_least_yield > 0) ? self->yield : friction_least_yield;
   self->spring_2_answer = (self->presliding - spring_2_least_answer > 0) ? self->presliding :
@@ -349,7 +350,7 @@ static inline unsigned friction_tunable_set_values(friction_tunable *self, const
   // b∞ − b
   self->velocity_gain = self->drag - self->steady_brake;
   const double spring_2_force_before = self->spring_2_carried_stiffness * self->spring_2_elongation;
-  // F, or F √(k′/k) of a softer spring
+  // F, or F √(k′/k) where the new stiffness k′ is lower
   const double spring_2_force_kept = (self->spring_2_carried_stiffness - self->presliding > 0) ?
       ((self->presliding > 0) ? spring_2_force_before *
       friction_tunable_square_root(self->presliding / self->spring_2_carried_stiffness) : zero) :
@@ -371,7 +372,7 @@ static inline unsigned friction_tunable_set_values(friction_tunable *self, const
       zero - spring_2_force_short;
   const double spring_2_falls_short = (self->presliding > 0) ? spring_2_force_short_size : zero;
   const double spring_2_energy_unpaid = spring_2_energy_missing - self->tank;
-  // F, as far as the tank pays
+  // F as before, as far as the energy in the tank allows
   const double spring_2_force_after = (spring_2_falls_short > 0) ? ((spring_2_energy_unpaid > 0) ?
       ((spring_2_force_before > 0) ? spring_2_force_most : minus_one *
       spring_2_force_most) : spring_2_force_before) : spring_2_force_kept;
@@ -388,9 +389,9 @@ static inline unsigned friction_tunable_set_values(friction_tunable *self, const
   self->spring_2_elongation = (spring_2_is_changed > 0) ? ((self->presliding > 0) ?
       spring_2_force_after / self->presliding : zero) : self->spring_2_elongation;
   self->spring_2_carried_stiffness = self->presliding;
-  // π
+  // force if the tool stays
   self->held_force = zero;
-  // π of the block
+  // force if the block keeps its length
   self->spring_2_held = self->presliding * self->spring_2_elongation;
   return clamped;
 }
@@ -405,16 +406,16 @@ static inline unsigned friction_tunable_set(friction_tunable *self, const fricti
   return friction_tunable_set_values(self, values);
 }
 
-// The share of all forces in the network that the last output kept, for the motor to be able to follow.
+// The share of all forces in the network that the last output kept so that the motor can follow.
 static inline double friction_tunable_kept_share(const friction_tunable *self) {
   (void)self;
   return 1;
 }
 
-// In the springs, and set free by changes of parameters, after the last update() [J].
+// Energy in the springs, and set free by changes of parameters, after the last update() [J].
 static inline double friction_tunable_stored_energy(const friction_tunable *self) {
   const double half = 0.5;  // a half [1]
-  // V + T: in the springs, and what changes of parameters have set free
+  // V + tank: in the springs, and set free by changes of parameters
   const double stored = self->tank +
       self->presliding * self->spring_2_elongation * self->spring_2_elongation * half;
   return stored;

@@ -5,7 +5,7 @@
 // brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 % of
 //   the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -16,12 +16,12 @@
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 2e-13 of the
 //   sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 2e-13 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -99,7 +99,7 @@ static inline const char *second_order_maxwell_estimator(void) { return "exact";
 static inline unsigned second_order_maxwell_loop_delay(void) { return 0u; }  // [samples]
 static inline int second_order_maxwell_is_certified(void) { return 1; }  // on that device, or on an ideal one
 
-// The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+// The part of the brake's command that was added for passivity: it is felt in addition to the network.
 static inline double second_order_maxwell_added_damping(void) { return 0.0; }
 
 static inline int second_order_maxwell_parameter_count(void) { return 0; }
@@ -124,8 +124,8 @@ static inline double second_order_maxwell_parameter_max(int i) {
   return 0;
 }
 
-// At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
-// treated as 0. Parameters stay as they are.
+// Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+// infinite position counts as 0. Parameters stay as they are.
 static inline void second_order_maxwell_reset(second_order_maxwell *self, double position) {
   self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
   self->relaxed_force = 0.0;
@@ -136,7 +136,7 @@ static inline void second_order_maxwell_reset(second_order_maxwell *self, double
   self->sampled = 0;
 }
 
-// At rest at 0, with the parameters' values of the network's file. To be called before all others.
+// Starts at rest at 0, with the parameters' values of the network's file. Call it before all other functions.
 static inline void second_order_maxwell_init(second_order_maxwell *self) {
   second_order_maxwell_reset(self, 0);
   self->sampled = 0;
@@ -148,7 +148,7 @@ static inline dashpot_command second_order_maxwell_output(second_order_maxwell *
   dashpot_command command;
   const double damping = 11.0;  // b, the brake's part
   const double static_stiffness = 5.0;  // k0 [N/m]
-  const double step_stiffness = 21.977282807459243;  // Σ c_i, answer of all modes within a sample [N/m]
+  const double step_stiffness = 21.977282807459243;  // Σ c_i, stiffness of all modes within a sample [N/m]
   const double velocity_gain = -11.0;  // b∞ − b [N·s/m]
   // Δu = u − u₋
   const double position_change = position - self->last_position;
@@ -168,10 +168,10 @@ static inline dashpot_command second_order_maxwell_output(second_order_maxwell *
   return command;
 }
 
-// Takes the states to the next sample; to be called once after each second_order_maxwell_output(), when the command has left.
+// Advances the states to the next sample. Call it once after each second_order_maxwell_output(), when the command has been sent.
 static inline void second_order_maxwell_update(second_order_maxwell *self) {
   if (self->sampled != 0) {
-    const double threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+    const double threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
     const double B2_K2_gain = 9.975032378492145;  // a c [N/m]
     const double B1_K1_gain = 11.956880536422767;  // a c [N/m]
     const double B2_K2_decay = 0.9983347214509387;  // a = e^{−λh} [1]
@@ -189,7 +189,7 @@ static inline void second_order_maxwell_update(second_order_maxwell *self) {
   }
 }
 
-// output() and then update(), where nothing else has to happen in between.
+// output() and then update() in one call.
 static inline dashpot_command second_order_maxwell_step(second_order_maxwell *self, double position, double velocity) {
   const dashpot_command command = second_order_maxwell_output(self, position, velocity);
   second_order_maxwell_update(self);
@@ -215,23 +215,23 @@ static inline double second_order_maxwell_parameter(const second_order_maxwell *
   return 0;
 }
 
-// Parameters in turn. Call it right after the step of a sample, and take the command from the output of that sample
-// without another update: so the force from before is held no longer, and a spring that changes injects no energy.
-// Bit i of the result: parameter i was beyond its range and is at its bound now, or it was NaN and is as it was. What
-// waits for an update belongs to the parameters before.
+// Sets all parameters, in their order. Call it right after the step of a sample, and take the command from the output of
+// that sample without another update: the motor then holds the old force no longer, and a spring that changes injects no
+// energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and has not
+// changed. An update that is still due is done first, with the old parameters.
 static inline unsigned second_order_maxwell_set_values(second_order_maxwell *self, const double *wanted) {
   (void)self;
   (void)wanted;
   return 0u;
 }
 
-// The share of all forces in the network that the last output kept, for the motor to be able to follow.
+// The share of all forces in the network that the last output kept so that the motor can follow.
 static inline double second_order_maxwell_kept_share(const second_order_maxwell *self) {
   (void)self;
   return 1;
 }
 
-// In the springs after the last update() [J].
+// Energy in the springs after the last update() [J].
 static inline double second_order_maxwell_stored_energy(const second_order_maxwell *self) {
   const double half_static_stiffness = 2.5;  // ½ k0 [N/m]
   const double B2_K2_energy_weight = 0.050166944753343795;  // 1/(2 k a²) [m/N]

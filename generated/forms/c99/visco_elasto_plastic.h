@@ -3,11 +3,12 @@
 // source: Gosline & Hayward 2009, Fig. 10 and (21); the paper prints no values, these are chosen here
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
-// brake: makes b = 2.5 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by
-//   the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in parallel add
+// brake: makes b = 2.5 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
+//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in
+//   parallel add
 // behind Y: steady, the largest brake, 3.3 N s/m on average, of the laws that err by no more than 5 % in a run:
 //   2.04e-05 %; b = 0.8 N·s/m stuck, 0.8 sliding
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -16,15 +17,15 @@
 //   least 3.3 N·s/m is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
-//   rounding adds at most 1.4e-15 of the sum of the force's terms
+// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
+//   energy; rounding adds at most 1.4e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 5 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 1 multiplication, 1 guard against subnormal numbers; 6 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 5.6e-16 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -87,7 +88,7 @@ typedef struct visco_elasto_plastic {
   double last_position;  // u of the sample before [m]
   double K_spring_force;  // force of the spring [N]
   double sampled_position_change;  // Δu since the sample before, at this sample [m]
-  double sampled_Y_trial;  // the slip's force if it held, at this sample [N]
+  double sampled_Y_trial;  // force of the slip if it held, at this sample [N]
   double sampled_Y_excess;  // what the slip does not hold, at this sample [N]
   double sampled_position;  // port displacement u, at this sample [m]
   int sampled;  // 1 while a finite sample waits for visco_elasto_plastic_update()
@@ -102,7 +103,7 @@ static inline const char *visco_elasto_plastic_estimator(void) { return "exact";
 static inline unsigned visco_elasto_plastic_loop_delay(void) { return 0u; }  // [samples]
 static inline int visco_elasto_plastic_is_certified(void) { return 1; }  // on that device, or on an ideal one
 
-// The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+// The part of the brake's command that was added for passivity: it is felt in addition to the network.
 static inline double visco_elasto_plastic_added_damping(void) { return 0.0; }
 
 static inline int visco_elasto_plastic_parameter_count(void) { return 0; }
@@ -127,8 +128,8 @@ static inline double visco_elasto_plastic_parameter_max(int i) {
   return 0;
 }
 
-// At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
-// treated as 0. Parameters stay as they are.
+// Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+// infinite position counts as 0. Parameters stay as they are.
 static inline void visco_elasto_plastic_reset(visco_elasto_plastic *self, double position) {
   self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
   self->K_spring_force = 0.0;
@@ -139,7 +140,7 @@ static inline void visco_elasto_plastic_reset(visco_elasto_plastic *self, double
   self->sampled = 0;
 }
 
-// At rest at 0, with the parameters' values of the network's file. To be called before all others.
+// Starts at rest at 0, with the parameters' values of the network's file. Call it before all other functions.
 static inline void visco_elasto_plastic_init(visco_elasto_plastic *self) {
   visco_elasto_plastic_reset(self, 0);
   self->sampled = 0;
@@ -150,17 +151,17 @@ static inline void visco_elasto_plastic_init(visco_elasto_plastic *self) {
 static inline dashpot_command visco_elasto_plastic_output(visco_elasto_plastic *self, double position, double velocity) {
   dashpot_command command;
   const double damping = 3.3;  // b, the brake's part
-  const double Y_trial_by_change = 1000.0;  // for a change of position [N/m]
+  const double Y_trial_by_change = 1000.0;  // factor of the change of position [N/m]
   const double Y_yield = 0.5;  // Y [N]
-  const double Y_force_by_excess = 0.5555555555555556;  // for what the slip does not hold [1]
-  const double slips_compensation = 0.7999991999992;  // β behind slips [N·s/m]
+  const double Y_force_by_excess = 0.5555555555555556;  // factor of the excess [1]
+  const double slips_compensation = 0.7999991999992;  // β, damping of the brake that the motor takes back [N·s/m]
   // Δu = u − u₋
   const double position_change = position - self->last_position;
-  // t = stuck trial
+  // trial = force of the slip if it held
   const double Y_trial = Y_trial_by_change * position_change + self->K_spring_force;
-  // s = clamp(t, ±Y)
+  // slip = clamp(trial, ±Y)
   const double Y_slip = dashpot_clamp_to(Y_yield, Y_trial);
-  // r = t − s
+  // excess = trial − slip
   const double Y_excess = Y_trial - Y_slip;
   // m = f − b u̇
   const double force = Y_trial - Y_force_by_excess * Y_excess - slips_compensation * velocity;
@@ -179,11 +180,11 @@ static inline dashpot_command visco_elasto_plastic_output(visco_elasto_plastic *
   return command;
 }
 
-// Takes the states to the next sample; to be called once after each visco_elasto_plastic_output(), when the command has left.
+// Advances the states to the next sample. Call it once after each visco_elasto_plastic_output(), when the command has been sent.
 static inline void visco_elasto_plastic_update(visco_elasto_plastic *self) {
   if (self->sampled != 0) {
-    const double threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
-    const double Y_K_spring_by_excess = 0.5555555555555556;  // for what the slip does not hold [1]
+    const double threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
+    const double Y_K_spring_by_excess = 0.5555555555555556;  // factor of the excess [1]
     // F ← F + k δ
     self->K_spring_force = dashpot_flush_below(threshold,
         self->sampled_Y_trial - Y_K_spring_by_excess * self->sampled_Y_excess);
@@ -193,7 +194,7 @@ static inline void visco_elasto_plastic_update(visco_elasto_plastic *self) {
   }
 }
 
-// output() and then update(), where nothing else has to happen in between.
+// output() and then update() in one call.
 static inline dashpot_command visco_elasto_plastic_step(visco_elasto_plastic *self, double position, double velocity) {
   const dashpot_command command = visco_elasto_plastic_output(self, position, velocity);
   visco_elasto_plastic_update(self);
@@ -219,23 +220,23 @@ static inline double visco_elasto_plastic_parameter(const visco_elasto_plastic *
   return 0;
 }
 
-// Parameters in turn. Call it right after the step of a sample, and take the command from the output of that sample
-// without another update: so the force from before is held no longer, and a spring that changes injects no energy.
-// Bit i of the result: parameter i was beyond its range and is at its bound now, or it was NaN and is as it was. What
-// waits for an update belongs to the parameters before.
+// Sets all parameters, in their order. Call it right after the step of a sample, and take the command from the output of
+// that sample without another update: the motor then holds the old force no longer, and a spring that changes injects no
+// energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and has not
+// changed. An update that is still due is done first, with the old parameters.
 static inline unsigned visco_elasto_plastic_set_values(visco_elasto_plastic *self, const double *wanted) {
   (void)self;
   (void)wanted;
   return 0u;
 }
 
-// The share of all forces in the network that the last output kept, for the motor to be able to follow.
+// The share of all forces in the network that the last output kept so that the motor can follow.
 static inline double visco_elasto_plastic_kept_share(const visco_elasto_plastic *self) {
   (void)self;
   return 1;
 }
 
-// In the springs after the last update() [J].
+// Energy in the springs after the last update() [J].
 static inline double visco_elasto_plastic_stored_energy(const visco_elasto_plastic *self) {
   const double K_compliance = 0.0005;  // 1/(2 k) [m/N]
   // F²/(2k)

@@ -5,7 +5,7 @@
 // port out: behind the map 'wall'; b = 1 N·s/m by the rule 'paper'
 // kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16, of joints that stay within
 //   their encoders' ranges
-// scheme: exact at 10000 Hz, double; what is kept of the past follows the measured position
+// scheme: exact at 10000 Hz, double; what the law remembers follows the measured position
 // brakes: by the rule 'diagonal' each brake makes the damping of its joint, and the motors the forces by which one
 //   joint's velocity acts on the other
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 100 % at least, at (-11,
@@ -24,8 +24,8 @@
 // cost of output(): 68 additions, 78 multiplications, 2 selections, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
 // words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has
-//   gone into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what
-//   gives the hand no more energy than it got; certified, what is proved to be passive
+//   gone into what the network resists; B* is the damping that all ports ask for, as a matrix over the joints.
+//   Passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 891796bb1804f2b9e2fd5639d51c9ddbcd99cc9834cf0fe75acc324a0ae3ae4c. It belongs to whoever had it
@@ -135,8 +135,8 @@ typedef struct kelvin_field {
   double across_sampled_position;  // port displacement u, at this sample [m]
   double out_last_position;  // u of the sample before [m]
   double out_sampled_position;  // port displacement u, at this sample [m]
-  double sampled_damping_1;  // of brake 1, at this sample [N·m·s/rad]
-  double sampled_damping_2;  // of brake 2, at this sample [N·m·s/rad]
+  double sampled_damping_1;  // damping of brake 1, at this sample [N·m·s/rad]
+  double sampled_damping_2;  // damping of brake 2, at this sample [N·m·s/rad]
   int sampled;  // 1 while a finite sample waits for kelvin_field_update()
 } kelvin_field;
 
@@ -152,47 +152,47 @@ static inline const char *kelvin_field_estimator(int joint) {
 static inline unsigned kelvin_field_loop_delay(void) { return 0u; }  // [samples]
 static inline int kelvin_field_is_certified(void) { return 1; }  // on that device, or on an ideal one
 
-// Of each brake's command the part that is there for passivity alone [N·m·s/rad].
+// The part of each brake's command that was added for passivity [N·m·s/rad].
 static inline double kelvin_field_added_damping(int brake) {
   static const double added[kelvin_field_brakes] = {0.0044614856021759405, 0.0044614856021759405};
   return ((brake >= 0) && (brake < kelvin_field_brakes)) ? added[brake] : 0;
 }
 
-// At rest with the joints at `position` [rad], an array of as many, springs relaxed but for the static load. A
-// NaN or infinite position counts as 0.
+// Starts at rest with the joints at `position` [rad], one entry a joint: only the springs that hold a force at
+// rest are loaded. A NaN or infinite position counts as 0.
 static inline void kelvin_field_reset(kelvin_field *self, const double *position) {
   const double half = 0.5;  // 1/2 [1]
   const double base = 0.025;  // distance of the motor axes [m]
   const double proximal_link = 0.063;  // length of the link at the motor [m]
   const double root_of_half = 0.7071067811865476;  // √½ [1]
-  const double eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, its first digits [rad]
-  const double eighth_turns_3_rest = 9.115650759759289e-11;  // a multiple of π/4, what is left of it [rad]
-  const double sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
-  const double sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
-  const double sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
-  const double sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
-  const double sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
-  const double sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
-  const double sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
-  const double sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
-  const double cosine_term_8 = 4.608977003001797e-14;  // of the polynomial in r² [1/rad^16]
-  const double cosine_term_7 = 1.1462901901757276e-11;  // of the polynomial in r² [1/rad^14]
-  const double cosine_term_6 = 2.0876561839933163e-09;  // of the polynomial in r² [1/rad^12]
-  const double cosine_term_5 = 2.755731639102575e-07;  // of the polynomial in r² [1/rad^10]
-  const double cosine_term_4 = 2.4801587277414926e-05;  // of the polynomial in r² [1/rad^8]
-  const double cosine_term_3 = 0.001388888888877299;  // of the polynomial in r² [1/rad^6]
-  const double cosine_term_2 = 0.04166666666666388;  // of the polynomial in r² [1/rad^4]
-  const double cosine_term_1 = 0.4999999999999997;  // of the polynomial in r² [1/rad^2]
+  const double eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, rounded [rad]
+  const double eighth_turns_3_rest = 9.115650759759289e-11;  // what rounding took from that multiple of π/4 [rad]
+  const double sine_term_6 = 1.6048168318165643e-10;  // coefficient of the polynomial in r² [1/rad^12]
+  const double sine_term_7 = 7.374387503862757e-13;  // coefficient of the polynomial in r² [1/rad^14]
+  const double sine_term_5 = 2.505188194671259e-08;  // coefficient of the polynomial in r² [1/rad^10]
+  const double sine_term_4 = 2.7557316609073673e-06;  // coefficient of the polynomial in r² [1/rad^8]
+  const double sine_term_3 = 0.00019841269824861897;  // coefficient of the polynomial in r² [1/rad^6]
+  const double sine_term_2 = 0.008333333333282756;  // coefficient of the polynomial in r² [1/rad^4]
+  const double sine_term_1 = 0.16666666666666072;  // coefficient of the polynomial in r² [1/rad^2]
+  const double sine_term_0 = 0.9999999999999999;  // coefficient of the polynomial in r² [1]
+  const double cosine_term_8 = 4.608977003001797e-14;  // coefficient of the polynomial in r² [1/rad^16]
+  const double cosine_term_7 = 1.1462901901757276e-11;  // coefficient of the polynomial in r² [1/rad^14]
+  const double cosine_term_6 = 2.0876561839933163e-09;  // coefficient of the polynomial in r² [1/rad^12]
+  const double cosine_term_5 = 2.755731639102575e-07;  // coefficient of the polynomial in r² [1/rad^10]
+  const double cosine_term_4 = 2.4801587277414926e-05;  // coefficient of the polynomial in r² [1/rad^8]
+  const double cosine_term_3 = 0.001388888888877299;  // coefficient of the polynomial in r² [1/rad^6]
+  const double cosine_term_2 = 0.04166666666666388;  // coefficient of the polynomial in r² [1/rad^4]
+  const double cosine_term_1 = 0.4999999999999997;  // coefficient of the polynomial in r² [1/rad^2]
   const double one = 1.0;  // 1 [1]
-  const double eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, its first digits [rad]
-  const double eighth_turns_1_rest = 3.038550253253096e-11;  // a multiple of π/4, what is left of it [rad]
-  const double distal_link_squared = 0.005625;  // square of that [m²]
+  const double eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, rounded [rad]
+  const double eighth_turns_1_rest = 3.038550253253096e-11;  // what rounding took from that multiple of π/4 [rad]
+  const double distal_link_squared = 0.005625;  // square of the length of the link at the tip [m²]
   const double quarter = 0.25;  // 1/4 [1]
-  const double half_base = 0.0125;  // half of that [m]
-  const double out_offset = 0.1;  // of the plane from the origin [m]
+  const double half_base = 0.0125;  // half the distance of the motor axes [m]
+  const double out_offset = 0.1;  // distance of the plane from the origin [m]
   const double q1 = (dashpot_all_finite(position[0], position[0], position[0]) != 0) ? position[0] : 0.0;
   const double q2 = (dashpot_all_finite(position[1], position[1], position[1]) != 0) ? position[1] : 0.0;
-  // r, from a multiple of π/4
+  // r = θ − a multiple of π/4
   const double rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
   // r²
   const double rest_squared_1 = rest_1 * rest_1;
@@ -205,7 +205,7 @@ static inline void kelvin_field_reset(kelvin_field *self, const double *position
   // −cos θ
   const double cosine_1 = root_of_half * (part_1 + part_2);
   const double part_3 = proximal_link * cosine_1;
-  // r, from a multiple of π/4
+  // r = θ − a multiple of π/4
   const double rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
   // r²
   const double rest_squared_2 = rest_2 * rest_2;
@@ -245,7 +245,7 @@ static inline void kelvin_field_reset(kelvin_field *self, const double *position
   self->sampled = 0;
 }
 
-// At rest with the joints at 0. To be called before all others.
+// Starts at rest with the joints at 0. Call it before all other functions.
 static inline void kelvin_field_init(kelvin_field *self) {
   const double origin[2] = {0};
   kelvin_field_reset(self, origin);
@@ -262,38 +262,38 @@ static inline kelvin_field_commands kelvin_field_output(kelvin_field *self, cons
   const double base = 0.025;  // distance of the motor axes [m]
   const double proximal_link = 0.063;  // length of the link at the motor [m]
   const double root_of_half = 0.7071067811865476;  // √½ [1]
-  const double eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, its first digits [rad]
-  const double eighth_turns_3_rest = 9.115650759759289e-11;  // a multiple of π/4, what is left of it [rad]
-  const double sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
-  const double sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
-  const double sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
-  const double sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
-  const double sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
-  const double sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
-  const double sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
-  const double sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
-  const double cosine_term_8 = 4.608977003001797e-14;  // of the polynomial in r² [1/rad^16]
-  const double cosine_term_7 = 1.1462901901757276e-11;  // of the polynomial in r² [1/rad^14]
-  const double cosine_term_6 = 2.0876561839933163e-09;  // of the polynomial in r² [1/rad^12]
-  const double cosine_term_5 = 2.755731639102575e-07;  // of the polynomial in r² [1/rad^10]
-  const double cosine_term_4 = 2.4801587277414926e-05;  // of the polynomial in r² [1/rad^8]
-  const double cosine_term_3 = 0.001388888888877299;  // of the polynomial in r² [1/rad^6]
-  const double cosine_term_2 = 0.04166666666666388;  // of the polynomial in r² [1/rad^4]
-  const double cosine_term_1 = 0.4999999999999997;  // of the polynomial in r² [1/rad^2]
+  const double eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, rounded [rad]
+  const double eighth_turns_3_rest = 9.115650759759289e-11;  // what rounding took from that multiple of π/4 [rad]
+  const double sine_term_6 = 1.6048168318165643e-10;  // coefficient of the polynomial in r² [1/rad^12]
+  const double sine_term_7 = 7.374387503862757e-13;  // coefficient of the polynomial in r² [1/rad^14]
+  const double sine_term_5 = 2.505188194671259e-08;  // coefficient of the polynomial in r² [1/rad^10]
+  const double sine_term_4 = 2.7557316609073673e-06;  // coefficient of the polynomial in r² [1/rad^8]
+  const double sine_term_3 = 0.00019841269824861897;  // coefficient of the polynomial in r² [1/rad^6]
+  const double sine_term_2 = 0.008333333333282756;  // coefficient of the polynomial in r² [1/rad^4]
+  const double sine_term_1 = 0.16666666666666072;  // coefficient of the polynomial in r² [1/rad^2]
+  const double sine_term_0 = 0.9999999999999999;  // coefficient of the polynomial in r² [1]
+  const double cosine_term_8 = 4.608977003001797e-14;  // coefficient of the polynomial in r² [1/rad^16]
+  const double cosine_term_7 = 1.1462901901757276e-11;  // coefficient of the polynomial in r² [1/rad^14]
+  const double cosine_term_6 = 2.0876561839933163e-09;  // coefficient of the polynomial in r² [1/rad^12]
+  const double cosine_term_5 = 2.755731639102575e-07;  // coefficient of the polynomial in r² [1/rad^10]
+  const double cosine_term_4 = 2.4801587277414926e-05;  // coefficient of the polynomial in r² [1/rad^8]
+  const double cosine_term_3 = 0.001388888888877299;  // coefficient of the polynomial in r² [1/rad^6]
+  const double cosine_term_2 = 0.04166666666666388;  // coefficient of the polynomial in r² [1/rad^4]
+  const double cosine_term_1 = 0.4999999999999997;  // coefficient of the polynomial in r² [1/rad^2]
   const double one = 1.0;  // 1 [1]
-  const double eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, its first digits [rad]
-  const double eighth_turns_1_rest = 3.038550253253096e-11;  // a multiple of π/4, what is left of it [rad]
-  const double distal_link_squared = 0.005625;  // square of that [m²]
+  const double eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, rounded [rad]
+  const double eighth_turns_1_rest = 3.038550253253096e-11;  // what rounding took from that multiple of π/4 [rad]
+  const double distal_link_squared = 0.005625;  // square of the length of the link at the tip [m²]
   const double quarter = 0.25;  // 1/4 [1]
-  const double half_base = 0.0125;  // half of that [m]
-  const double out_offset = 0.1;  // of the plane from the origin [m]
-  const double most_damping_1 = 0.00953851439782406;  // that the brake gives, less what is added [N·m·s/rad]
-  const double added_damping_1 = 0.0044614856021759405;  // for passivity alone [N·m·s/rad]
+  const double half_base = 0.0125;  // half the distance of the motor axes [m]
+  const double out_offset = 0.1;  // distance of the plane from the origin [m]
+  const double most_damping_1 = 0.00953851439782406;  // largest damping of the brake, less what is added [N·m·s/rad]
+  const double added_damping_1 = 0.0044614856021759405;  // added to the brake's command for passivity [N·m·s/rad]
   const double q1 = position[0];
   const double q2 = position[1];
   const double v1 = velocity[0];
   const double v2 = velocity[1];
-  // r, from a multiple of π/4
+  // r = θ − a multiple of π/4
   const double rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
   // r²
   const double rest_squared_1 = rest_1 * rest_1;
@@ -306,7 +306,7 @@ static inline kelvin_field_commands kelvin_field_output(kelvin_field *self, cons
   // −cos θ
   const double cosine_1 = root_of_half * (part_1 + part_2);
   const double part_3 = proximal_link * cosine_1;
-  // r, from a multiple of π/4
+  // r = θ − a multiple of π/4
   const double rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
   // r²
   const double rest_squared_2 = rest_2 * rest_2;
@@ -360,7 +360,7 @@ static inline kelvin_field_commands kelvin_field_output(kelvin_field *self, cons
   // B* of joint 1
   const double wanted_11 = x_by_q1 * x_by_q1 + y_by_q1 * y_by_q1;
   const double part_23 = (most_damping_1 - wanted_11 > 0) ? wanted_11 : most_damping_1;
-  // D of B*
+  // D, what the brakes make of B*
   const double damping_1 = part_23 + added_damping_1;
   const double part_24 = part_19 * (part_9 * part_22 + part_6 * part_21);
   // −∂x/∂q2
@@ -373,7 +373,7 @@ static inline kelvin_field_commands kelvin_field_output(kelvin_field *self, cons
   const double damping_2 = added_damping_1 + part_25;
   // B* between the joints
   const double wanted_12 = x_by_q1 * x_by_q2 - y_by_q1 * y_by_q2;
-  // τ = Σ g M + (B* − D) v
+  // τ = Σ ∂w/∂q M + (B* − D) v
   const double torque_1 = (wanted_11 - part_23) * v1 + wanted_12 * v2 - (x_by_q1 * across_force +
       y_by_q1 * out_force);
   const double torque_2 = y_by_q2 * out_force - x_by_q2 * across_force + (wanted_12 * v1 +
@@ -398,7 +398,7 @@ static inline kelvin_field_commands kelvin_field_output(kelvin_field *self, cons
   return command;
 }
 
-// Takes the states to the next sample; to be called once after each kelvin_field_output(), when the command has left.
+// Advances the states to the next sample. Call it once after each kelvin_field_output(), when the command has been sent.
 static inline void kelvin_field_update(kelvin_field *self) {
   if (self->sampled != 0) {
     // u₋ = u
@@ -409,14 +409,14 @@ static inline void kelvin_field_update(kelvin_field *self) {
   }
 }
 
-// output() and then update(), where nothing else has to happen in between.
+// output() and then update() in one call.
 static inline kelvin_field_commands kelvin_field_step(kelvin_field *self, const double *position, const double *velocity) {
   const kelvin_field_commands command = kelvin_field_output(self, position, velocity);
   kelvin_field_update(self);
   return command;
 }
 
-// In the springs after the last update() [J].
+// Energy in the springs after the last update() [J].
 static inline double kelvin_field_stored_energy(const kelvin_field *self) {
   const double across_half_static_stiffness = 50.0;  // ½ k0 [N/m]
   const double out_half_static_stiffness = 50.0;  // ½ k0 [N/m]
@@ -425,7 +425,7 @@ static inline double kelvin_field_stored_energy(const kelvin_field *self) {
       self->across_last_position;
   // V = ½ k0 u² + Σ F_i²/(2 k_i)
   const double out_stored = out_half_static_stiffness * self->out_last_position * self->out_last_position;
-  // V of all ports
+  // Σ V of all ports
   const double stored = across_stored + out_stored;
   return stored;
 }

@@ -24,7 +24,7 @@ brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by t
   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 % of
   the energy into heat at low frequency, and the brake follows it
 .br
-states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+states: what the law remembers follows the measured position (position driven: on an ideal device position and
   velocity do equally well)
 .br
 late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
@@ -39,7 +39,7 @@ energy: no motion gets more work out of the law than stored_energy() falls; roun
   sum of the force's terms
 .br
 device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-  period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+  period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 .br
 cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 .br
@@ -48,7 +48,7 @@ cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal num
 .br
 rounding: the force of a mode is off by at most 2e-13 of its peak
 .br
-words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
   mode is a spring behind a damper, whose force dies away""";
 pin in float position "of the tool [m]";
 pin in float velocity "of the tool [m/s], as the estimator 'exact' tells it";
@@ -65,7 +65,7 @@ option data law_second_order_maxwell_instance;
 author "whoever had it written";
 license "of whoever had it written; dashpot 0.1.0 claims nothing of its output";
 ;;
-// The bits are those of separate multiplications and additions, on processors that have both in one as well.
+// Forbids fused multiply-add, so that results are the same to the last bit on every processor.
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #elif defined(__GNUC__)
@@ -79,7 +79,7 @@ license "of whoever had it written; dashpot 0.1.0 claims nothing of its output";
 // brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 % of
 //   the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -90,12 +90,12 @@ license "of whoever had it written; dashpot 0.1.0 claims nothing of its output";
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 2e-13 of the
 //   sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 2e-13 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -173,7 +173,7 @@ static inline const char *law_second_order_maxwell_estimator(void) { return "exa
 static inline unsigned law_second_order_maxwell_loop_delay(void) { return 0u; }  // [samples]
 static inline int law_second_order_maxwell_is_certified(void) { return 1; }  // on that device, or on an ideal one
 
-// The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+// The part of the brake's command that was added for passivity: it is felt in addition to the network.
 static inline double law_second_order_maxwell_added_damping(void) { return 0.0; }
 
 static inline int law_second_order_maxwell_parameter_count(void) { return 0; }
@@ -198,8 +198,8 @@ static inline double law_second_order_maxwell_parameter_max(int i) {
   return 0;
 }
 
-// At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
-// treated as 0. Parameters stay as they are.
+// Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+// infinite position counts as 0. Parameters stay as they are.
 static inline void law_second_order_maxwell_reset(law_second_order_maxwell *self, double position) {
   self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
   self->relaxed_force = 0.0;
@@ -210,7 +210,7 @@ static inline void law_second_order_maxwell_reset(law_second_order_maxwell *self
   self->sampled = 0;
 }
 
-// At rest at 0, with the parameters' values of the network's file. To be called before all others.
+// Starts at rest at 0, with the parameters' values of the network's file. Call it before all other functions.
 static inline void law_second_order_maxwell_init(law_second_order_maxwell *self) {
   law_second_order_maxwell_reset(self, 0);
   self->sampled = 0;
@@ -222,7 +222,7 @@ static inline dashpot_command law_second_order_maxwell_output(law_second_order_m
   dashpot_command command;
   const double damping = 11.0;  // b, the brake's part
   const double static_stiffness = 5.0;  // k0 [N/m]
-  const double step_stiffness = 21.977282807459243;  // Σ c_i, answer of all modes within a sample [N/m]
+  const double step_stiffness = 21.977282807459243;  // Σ c_i, stiffness of all modes within a sample [N/m]
   const double velocity_gain = -11.0;  // b∞ − b [N·s/m]
   // Δu = u − u₋
   const double position_change = position - self->last_position;
@@ -242,10 +242,10 @@ static inline dashpot_command law_second_order_maxwell_output(law_second_order_m
   return command;
 }
 
-// Takes the states to the next sample; to be called once after each law_second_order_maxwell_output(), when the command has left.
+// Advances the states to the next sample. Call it once after each law_second_order_maxwell_output(), when the command has been sent.
 static inline void law_second_order_maxwell_update(law_second_order_maxwell *self) {
   if (self->sampled != 0) {
-    const double threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+    const double threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
     const double B2_K2_gain = 9.975032378492145;  // a c [N/m]
     const double B1_K1_gain = 11.956880536422767;  // a c [N/m]
     const double B2_K2_decay = 0.9983347214509387;  // a = e^{−λh} [1]
@@ -263,7 +263,7 @@ static inline void law_second_order_maxwell_update(law_second_order_maxwell *sel
   }
 }
 
-// output() and then update(), where nothing else has to happen in between.
+// output() and then update() in one call.
 static inline dashpot_command law_second_order_maxwell_step(law_second_order_maxwell *self, double position, double velocity) {
   const dashpot_command command = law_second_order_maxwell_output(self, position, velocity);
   law_second_order_maxwell_update(self);
@@ -289,23 +289,23 @@ static inline double law_second_order_maxwell_parameter(const law_second_order_m
   return 0;
 }
 
-// Parameters in turn. Call it right after the step of a sample, and take the command from the output of that sample
-// without another update: so the force from before is held no longer, and a spring that changes injects no energy.
-// Bit i of the result: parameter i was beyond its range and is at its bound now, or it was NaN and is as it was. What
-// waits for an update belongs to the parameters before.
+// Sets all parameters, in their order. Call it right after the step of a sample, and take the command from the output of
+// that sample without another update: the motor then holds the old force no longer, and a spring that changes injects no
+// energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and has not
+// changed. An update that is still due is done first, with the old parameters.
 static inline unsigned law_second_order_maxwell_set_values(law_second_order_maxwell *self, const double *wanted) {
   (void)self;
   (void)wanted;
   return 0u;
 }
 
-// The share of all forces in the network that the last output kept, for the motor to be able to follow.
+// The share of all forces in the network that the last output kept so that the motor can follow.
 static inline double law_second_order_maxwell_kept_share(const law_second_order_maxwell *self) {
   (void)self;
   return 1;
 }
 
-// In the springs after the last update() [J].
+// Energy in the springs after the last update() [J].
 static inline double law_second_order_maxwell_stored_energy(const law_second_order_maxwell *self) {
   const double half_static_stiffness = 2.5;  // ½ k0 [N/m]
   const double B2_K2_energy_weight = 0.050166944753343795;  // 1/(2 k a²) [m/N]
@@ -336,8 +336,8 @@ FUNCTION(output) {
   dashpot_command command = {__comp_inst->safe_damping, 0.0};
   if (is_first) law_second_order_maxwell_init(&here->law);
   here->has_begun = 1;
-  law_second_order_maxwell_update(&here->law);  // where the function of that name has not run
-  // Not before this sample: the position of one before it may have been NaN.
+  law_second_order_maxwell_update(&here->law);  // in case the function of that name has not run
+  // Reset here and not earlier: an earlier position may have been NaN.
   if (is_enabled && !here->was_enabled) law_second_order_maxwell_reset(&here->law, position);
   here->was_enabled = is_enabled;
   if (!is_enabled) {

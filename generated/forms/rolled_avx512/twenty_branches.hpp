@@ -6,7 +6,7 @@
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, damper_6 turns 100
 //   % of the energy into heat at low frequency, and the brake follows it; in series, damper_8 turns 100 % of the
 //   energy into heat at low frequency, and the brake follows it; and 16 more series connections likewise
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -17,13 +17,13 @@
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 5.6e-13 of the
 //   sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 39 additions, 40 multiplications, 20 guards against subnormal numbers; 24 numbers kept between
 //   samples
 // loops: laid out for registers of 64 bytes, -mavx512f; sums in 32 parts, the same bits on every machine
 // rounding: the force of a mode is off by at most 5.6e-13 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -42,7 +42,7 @@ class twenty_branches {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -57,7 +57,8 @@ class twenty_branches {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     relaxed_force_ = 0;
@@ -83,7 +84,7 @@ class twenty_branches {
     return {damping, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -104,7 +105,7 @@ class twenty_branches {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();
@@ -114,7 +115,7 @@ class twenty_branches {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 32>, 64>;
     dashpot::partial_sums<vector, 32> lane;
@@ -141,7 +142,7 @@ class twenty_branches {
   static constexpr scalar damping = 6.629;  // b, the brake's part
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar static_stiffness = 7.0;  // k0 [N/m]
-  static constexpr scalar step_stiffness = 199.30365657408584;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar step_stiffness = 199.30365657408584;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -6.629;  // b∞ − b [N·s/m]
   // a c [N/m]
   alignas(64) static constexpr scalar mode_gain[32] = {0.9991000600570155, 1.9934106222244374, 2.978480433050734,

@@ -4,7 +4,7 @@
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 5 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the estimated velocity (velocity driven as asked)
+// states: what the law remembers follows the estimated velocity (velocity driven as asked)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
 // passivity: certified for any motion, samples at 1000 Hz: needs 4.95449 N·s/m, most at 18.8949 Hz, at least 5
@@ -12,12 +12,12 @@
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 1 addition, 1 multiplication, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 1 guard against subnormal numbers; 2 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 3.4e-14 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -35,7 +35,7 @@ class maxwell_damper_at_tool {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -50,7 +50,8 @@ class maxwell_damper_at_tool {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     static_cast<void>(position);
     B_K_force_ = 0;
@@ -70,7 +71,7 @@ class maxwell_damper_at_tool {
     return {damping, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -78,7 +79,7 @@ class maxwell_damper_at_tool {
     B_K_force_ = dashpot::relaxed(threshold, B_K_decay, B_K_force_, B_K_velocity_drive * sampled_velocity_);
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // m = f − b u̇
     const scalar force = B_K_force_ + velocity_gain * velocity;
@@ -95,7 +96,7 @@ class maxwell_damper_at_tool {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar B_K_energy = B_K_energy_weight * B_K_force_ * B_K_force_;
@@ -107,7 +108,7 @@ class maxwell_damper_at_tool {
  private:
   static constexpr scalar damping = 5.0;  // b, the brake's part
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
-  static constexpr scalar velocity_gain = -4.95024916874584;  // b∞ − b + h Σ c_i, what the estimate drives within a sample [N·s/m]
+  static constexpr scalar velocity_gain = -4.95024916874584;  // b∞ − b + h Σ c_i, force for an estimated velocity [N·s/m]
   static constexpr scalar B_K_velocity_drive = 0.04925580221206376;  // a c h [N·s/m]
   static constexpr scalar B_K_decay = 0.9900498337491681;  // a = e^{−λh} [1]
   static constexpr scalar B_K_energy_weight = 0.010202013400267558;  // 1/(2 k a²) [m/N]

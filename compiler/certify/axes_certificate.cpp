@@ -9,6 +9,7 @@
 #include "axes/motor_norms.hpp"
 #include "axes/weighed.hpp"
 #include "certify/estimator_factors.hpp"
+#include "certify/forces_behind_slips.hpp"
 #include "certify/motor_limits.hpp"
 #include "certify/quantisation.hpp"
 #include "certify/unproved.hpp"
@@ -31,12 +32,6 @@ bool compensates(const UpdateLaw& law) {
   });
 }
 
-double sum_of_yields(const Network& network) {
-  double sum = 0;
-  for (const Element& element : network.elements) sum += yield_force_of(element.law);
-  return sum;
-}
-
 // Gain of the velocity estimate g·v̂ that decides when a contact with damping ends [N·s/m].
 double follows(const CertifiedPort& port) { return port.slips ? port.slips->compensation : 0; }
 
@@ -47,7 +42,9 @@ axes::PortLoad load_of(const CertifiedPort& port, double sample_period) {
   load.held = std::max(port.certificate->bound.needed - follows(port), 0.0) / sample_period * (1 + 1e-12);
   load.grounded = to_double(port.form->linear.static_stiffness);
   for (const Mode& mode : port.form->linear.modes) load.relaxing += to_double(mode.stiffness);
-  load.yields = sum_of_yields(port.port->network);
+  const ForcesBehindSlips behind = forces_behind_slips(port.port->network);
+  load.relaxing += behind.stiffness;  // springs that reach ground round slips are at rest wherever the tool began
+  load.yields = behind.yields;
   load.unilateral = port.port->network.contact.has_value();
   if (load.unilateral) load.surface = port.port->network.contact->at;
   return load;

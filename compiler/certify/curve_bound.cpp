@@ -9,6 +9,7 @@
 #include "certify/box_hold.hpp"
 #include "certify/box_motor.hpp"
 #include "certify/estimator_factors.hpp"
+#include "certify/forces_behind_slips.hpp"
 #include "certify/hold_bound.hpp"
 #include "certify/unproved.hpp"
 #include "discretise/law_writer.hpp"
@@ -71,7 +72,7 @@ struct HeldForces {
   double static_slack = 0;      // d, beyond which it gives up force; 0 if it is always at rest at w = 0 [m]
   double step_stiffness = 0;    // Σ c_i; with tunables `relaxing` has it all [N/m]
   double unsettled = 0;         // the part of the step stiffness that belongs to no mode
-  double besides = 0;           // Σ Y [N]
+  double besides = 0;           // largest force of what is behind slips [N]
   std::vector<Relaxing> relaxing;
   bool is_stepwise = false;  // no delay, only springs and slips behind them: each step obeys an inequality of its own
   bool is_tunable = false;
@@ -94,7 +95,8 @@ HeldForces held_forces(const MotorConstants& motor, const Network& network, cons
                        const SampledLoop& tool) {
   constexpr double unknown = std::numeric_limits<double>::infinity();
   HeldForces held;
-  held.besides = slips ? yield_forces(network) : 0;
+  const ForcesBehindSlips behind = slips ? forces_behind_slips(network) : ForcesBehindSlips{};
+  held.besides = behind.yields;
   const bool is_of_springs = slips && slips->springs_alone && (!network.contact || held.besides == 0);
   held.is_stepwise = tool.delay_samples == 0 && (!slips || is_of_springs);
   held.unsettled = motor.step_stiffness;
@@ -108,6 +110,9 @@ HeldForces held_forces(const MotorConstants& motor, const Network& network, cons
   held.unsettled = std::abs(held.unsettled) * margin;
   held.static_stiffness = std::abs(motor.static_stiffness);
   held.step_stiffness = std::abs(motor.step_stiffness);
+  if (!behind.reach_round) return held;
+  held.relaxing.push_back({0, 0, unknown, behind.stiffness, unknown, behind.stiffness});
+  held.step_stiffness += behind.stiffness;
   return held;
 }
 
@@ -376,6 +381,10 @@ PassivityBound bound_over_box(UpdateLaw& law, const Network& network, const std:
   law.damping = box.least_brake;
   law.largest_damping = box.largest_brake;
   if (const std::string why = hindrance(false, slips, tool); !why.empty()) return not_proved(why);
+  if (forces_behind_slips(network).reach_round)
+    return not_proved(
+        "parameters change behind a static curve, and springs or dampers reach ground round a slip, where "
+        "nothing bounds what they hold");
   const BoxHold held = box_hold(law, tool.max_force > 0 || tool.motor_slew > 0);
   if (const std::string why = hindrance_of_tunables(network, held, tool); !why.empty()) return not_proved(why);
   if (!box.hindrance.empty()) return not_proved(box.hindrance);

@@ -229,5 +229,27 @@ TEST(TunableCurves, MostLawsGiveOutEnergyWithNineTenths) {
   EXPECT_GE(gains, 4 * cases / 5) << "of " << cases;
 }
 
+// If this fails, a law is called certified whose springs go on pulling when the slip beside them has given way, and
+// nothing bounds what they hold after changes.
+TEST(TunableCurves, NothingIsProvedOfSpringsThatReachGroundRoundASlip) {
+  const auto certificate_of = [](const std::string& beside_slip) {
+    Case one;
+    one.in_contact = false;
+    one.network =
+        fmt::format(R"({{ "dashpot": 1, "name": "curved", "static": {{ "power": 1.5, "force": 2, "at": 5e-3 }},
+        "parameters": {{ "K": {{ "value": 500, "tunable": true, "min": 100, "max": 1000 }} }},
+        "network": {{ "parallel": [ {{ "spring": 200 }},
+          {{ "series": [ {{ "spring": "K" }}, {{ "parallel": [ {{ "slip": 0.1 }}{} ] }} ] }} ] }},
+        "valid": {{ "displacement": 5e-3 }} }})",
+                    beside_slip);
+    one.loop = {1e-3, 0, 0.05, 5e-3, 0, 0};
+    return on(one, 1e3).certificate;
+  };
+  const Certificate round = certificate_of(R"(, { "spring": 300 })");
+  EXPECT_FALSE(round.certified);
+  EXPECT_NE(round.bound.reason.find("round a slip"), std::string::npos) << round.bound.reason;
+  EXPECT_TRUE(certificate_of("").certified);
+}
+
 }  // namespace
 }  // namespace dashpot::testing

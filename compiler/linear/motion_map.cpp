@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "network/stuck_slips.hpp"
+#include "network/stuck_and_open_slips.hpp"
 
 namespace dashpot::compiler {
 namespace {

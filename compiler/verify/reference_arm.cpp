@@ -6,10 +6,13 @@
 #include <vector>
 
 #include "certify/slip_motor.hpp"
+#include "network/disjoint_sets.hpp"
 #include "network/law.hpp"
 #include "network/match.hpp"
+#include "network/stuck_and_open_slips.hpp"
 #include "verify/reference_grid.hpp"
 #include "verify/reference_slips.hpp"
+#include "verify/reference_tree.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -148,8 +151,8 @@ struct PortForce {
   std::optional<ReferenceGrid> grid;  // if its map is a grid
   Reference held = 0;                 // S [N/m]
   Reference grounded = 0;             // k0 [N/m]
-  Reference relaxing = 0;             // Σ k of the modes [N/m]
-  Reference yields = 0;               // largest force of the slips [N]
+  Reference relaxing = 0;             // Σ k of the modes, and of springs that reach ground round slips [N/m]
+  Reference yields = 0;               // a force that the slips can hold beside these [N]
   Reference least = 0, most = 0;      // w at the places [m]
 };
 
@@ -162,6 +165,30 @@ Reference held_behind_slips(const ReferenceCut& cut, const LawFacts& facts) {
   return cut.stiffness + cut.of_motor() * Reference(facts.rate);
 }
 
+// The slips of a part hold the weakest slip's force on the path where that is largest, if not more. Where springs or
+// dampers reach ground round them, they hold a part of it that depends on these: none is counted.
+Reference held_by_slips(const Network& network) {
+  Reference sum = 0;
+  for (const std::vector<std::size_t>& part : parts_between_ends(network)) {
+    DisjointSets joined(network.nodes.size());
+    std::vector<std::size_t> slips;
+    const auto join = [&](std::size_t i) { joined.unite(network.elements[i].a, network.elements[i].b); };
+    const auto yield = [&](std::size_t i) { return yield_force_of(network.elements[i].law); };
+    for (std::size_t i : part)
+      if (is_slip(network.elements[i].law)) slips.push_back(i);
+      else join(i);
+    if (joined.find(tool) == joined.find(ground)) continue;
+    std::sort(slips.begin(), slips.end(), [&](std::size_t a, std::size_t b) { return yield(a) > yield(b); });
+    for (std::size_t i : slips) {
+      join(i);
+      if (joined.find(tool) != joined.find(ground)) continue;
+      sum += Reference(yield(i));
+      break;
+    }
+  }
+  return sum;
+}
+
 PortForce force_of(const AxesCompilation& c, std::size_t i) {
   const Compilation& compiled = c.ports[i];
   const Network& network = compiled.network;
@@ -172,8 +199,10 @@ PortForce force_of(const AxesCompilation& c, std::size_t i) {
   const SlipDecomposition& slips = compiled.decomposition.slips;
   const ReferenceTree tree = rendered_tree(reference_tree(network), network, slips);
   force.grounded = tree.linear.static_stiffness;
-  for (const ReferenceMode& mode : tree.linear.modes) force.relaxing += mode.stiffness;
-  for (const Element& element : network.elements) force.yields += Reference(yield_force_of(element.law));
+  const ReferenceForm open = tree.has_slips() ? reference_form(with_open_slips(network)) : tree.linear;
+  force.relaxing = open.static_stiffness - tree.linear.static_stiffness;
+  for (const ReferenceMode& mode : open.modes) force.relaxing += mode.stiffness;
+  force.yields = held_by_slips(network);
   force.held = tree.has_slips() || network.contact
                    ? held_behind_slips(reference_cut(tree, network, slips, facts, prompt), facts)
                    : reference_cut(tree.linear, facts).stiffness;

@@ -5,7 +5,7 @@
 #include "certify/proved_bound.hpp"
 #include "certify/quantisation.hpp"
 #include "network/law.hpp"
-#include "network/stuck_slips.hpp"
+#include "network/stuck_and_open_slips.hpp"
 #include "verify/law_constants.hpp"
 #include "verify/port_constants.hpp"
 #include "verify/realised_network.hpp"

@@ -232,6 +232,22 @@ class AxesVerify(CommandTest):
         self.assertLessEqual(float(share), 100)
         self.assertGreater(float(share), 95)  # 1 % of it is the search's; in three samples joints go 0.5 mrad
 
+    def test_springs_that_reach_ground_round_slips(self):
+        """Fails if verify asks for more than a part with slips can hold, or passes over springs that go on pulling when
+        a slip has given way."""
+        round_slip = lambda before, slip, beside: {"series": [
+            {"spring": before}, {"parallel": [{"slip": slip}, {"spring": beside}]}]}
+        for network, least in ((round_slip("1000 N/m", "10 mN", "99 N/mm"), 90),
+                               (round_slip("10 N/m", "2 N", "30 N/m"), 0),
+                               ({"series": [{"spring": "10 N/m"}, {"slip": "2 N"}, {"spring": "30 N/m"},
+                                            {"slip": "50 mN"}]}, 0)):
+            self.write("slips.json", json.dumps({"dashpot": 1, "axes": 2, "name": "slips", "ports": [
+                {"name": "wall", "map": {"wall": {"through": [0, "90 mm"], "normal": [0, 1]}}, "network": network}]}))
+            said = self.verified(*self.compiled("slips.json", "--device", "serial.json")).stdout
+            share = float(re.search(r"over the workspace, ([\d.]+) % are needed at one of", said)[1])
+            self.assertGreater(share, least)
+            self.assertLessEqual(share, 100)
+
     # If this fails, a contact that begins in front of where its map does is certified as if it pushed later.
     def test_surfaces_elsewhere(self):
         wall = lambda name, y, at: self.write(f"{name}.json",

@@ -1,4 +1,4 @@
-#include "network/stuck_slips.hpp"
+#include "network/stuck_and_open_slips.hpp"
 
 #include <vector>
 
@@ -7,6 +7,16 @@
 #include "network/law.hpp"
 
 namespace dashpot::compiler {
+namespace {
+
+// Leaves an effect to what lies on a path from tool to ground.
+Network along(const std::vector<bool>& passable, Network network) {
+  const std::vector<bool> on_path = on_path_between_ends(network, passable);
+  for (std::size_t i = 0; i < on_path.size(); ++i) network.elements[i].has_effect = on_path[i];
+  return network;
+}
+
+}  // namespace
 
 Network with_stuck_slips(Network network) {
   DisjointSets joined(network.nodes.size());  // by the least, so that tool and ground stay what they are
@@ -18,9 +28,13 @@ Network with_stuck_slips(Network network) {
     element.b = joined.find(element.b);
     passable.push_back(element.has_effect && element.a != element.b);
   }
-  const std::vector<bool> on_path = on_path_between_ends(network, passable);
-  for (std::size_t i = 0; i < on_path.size(); ++i) network.elements[i].has_effect = on_path[i];
-  return network;
+  return along(passable, std::move(network));
+}
+
+Network with_open_slips(Network network) {
+  std::vector<bool> passable;
+  for (const Element& element : network.elements) passable.push_back(element.has_effect && !is_slip(element.law));
+  return along(passable, std::move(network));
 }
 
 }  // namespace dashpot::compiler

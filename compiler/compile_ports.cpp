@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "certify/curve_bound.hpp"
+#include "certify/forces_behind_slips.hpp"
 #include "certify/hold_bound.hpp"
 #include "certify/unproved.hpp"
 #include "compile.hpp"
@@ -50,12 +50,13 @@ double largest_force(const Compilation& port) {
   if (travel == 0 && network.static_curve) travel = network.static_curve->point.displacement;
   if (travel == 0 && network.valid.displacement) travel = network.valid.displacement->high;
   travel = network.pushed_in(travel);
-  double stiffness = to_double(linear.static_stiffness), steepest = 1;
+  const ForcesBehindSlips behind = forces_behind_slips(network);
+  double stiffness = to_double(linear.static_stiffness) + behind.stiffness, steepest = 1;
   for (const Mode& mode : linear.modes) stiffness += to_double(mode.stiffness);
   double way = travel;
   if (network.map) steepest = network.map->largest_tangent(0, travel), way = network.map->value_at(travel);
   const double of_damper = to_double(linear.feedthrough_damping) * steepest * loop.tool_speed;
-  return steepest * (stiffness * way + of_damper + yield_forces(network));
+  return steepest * (stiffness * way + of_damper + behind.yields);
 }
 
 std::vector<DeviceShare> shares_of(const std::vector<Compilation>& alone) {

@@ -15,7 +15,6 @@
 #include "discretise/law_writer.hpp"
 #include "discretise/rounding.hpp"
 #include "law/representable.hpp"
-#include "network/law.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -315,13 +314,6 @@ std::string hindrance_of_tunables(const Network& network, const BoxHold& held, c
 }
 
 }  // namespace
-
-double yield_forces(const Network& network) {
-  double sum = 0;
-  for (const Element& element : network.elements)
-    if (element.has_effect) sum += yield_force_of(element.law);
-  return sum;
-}
 
 std::vector<CurveStretch> curve_stretches(const MotionMap& map, const SampledLoop& tool, double coil_lag) {
   const double reach = reach_of_hold(tool), farthest = tool.travel + std::abs(map.start);

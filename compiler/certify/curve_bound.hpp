@@ -36,9 +36,6 @@
 
 namespace dashpot::compiler {
 
-// Σ Y of the slips that forces can pass through [N].
-double yield_forces(const Network& network);
-
 // A stretch of the map; the bounds hold for it and for all places that the tool may reach from it within a hold.
 struct CurveStretch {
   double from, to;               // the stretch itself [m]

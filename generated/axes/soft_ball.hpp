@@ -413,7 +413,7 @@ class soft_ball {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar ball_static_stiffness = 200.0;  // k0 [N/m]
   static constexpr scalar ball_none = 0.0;  // no force on a free tool [N]
   static constexpr scalar ball_recovery_compliance = -0.0001886801351353414;  // −1/g [m/N]

@@ -375,7 +375,7 @@ class viscous_wall {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar wall_static_stiffness = 300.0;  // k0 [N/m]
   static constexpr scalar wall_none = 0.0;  // no force on a free tool [N]
   static constexpr scalar wall_recovery_compliance = -9.70873786407767e-05;  // −1/g [m/N]

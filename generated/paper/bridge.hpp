@@ -141,7 +141,7 @@ class bridge {
 
  private:
   static constexpr scalar damping = 6.171597633136095;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 27.692307692307693;  // k0 [N/m]
   static constexpr scalar step_stiffness = 236.63154763858617;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -6.171597633136095;  // b∞ − b [N·s/m]

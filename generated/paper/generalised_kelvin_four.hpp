@@ -151,7 +151,7 @@ class generalised_kelvin_four {
 
  private:
   static constexpr scalar damping = 20.0;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 33.5195530726257;  // k0 [N/m]
   static constexpr scalar step_stiffness = 144.68810582669164;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -17.391304347826086;  // b∞ − b [N·s/m]

@@ -152,7 +152,7 @@ class maxwell_slip_ten {
   }
 
   static constexpr scalar damping = 0.0;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   // factor of the change of position [N/m]
   alignas(16) static constexpr scalar Y1_trial_by_change[16] = {200.0, 190.0, 180.0, 170.0, 160.0, 150.0, 140.0,
       130.0, 120.0, 110.0};

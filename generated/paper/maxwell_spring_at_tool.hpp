@@ -120,7 +120,7 @@ class maxwell_spring_at_tool {
 
  private:
   static constexpr scalar damping = 5.0;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar step_stiffness = 49.750831254159735;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -5.0;  // b∞ − b [N·s/m]
   static constexpr scalar K_B_gain = 49.255802212063756;  // a c [N/m]

@@ -152,7 +152,7 @@ class virtual_wall {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 500.0;  // k0 [N/m]
   static constexpr scalar none = 0.0;  // no force on a free tool [N]
   static constexpr scalar recovery_compliance = -0.0001818181818181818;  // −1/g [m/N]

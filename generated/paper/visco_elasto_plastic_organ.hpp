@@ -194,7 +194,7 @@ class visco_elasto_plastic_organ {
 
  private:
   static constexpr scalar damping = 3.3;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar Y_trial_by_change = 581.271352586278;  // factor of the change of position [N/m]
   static constexpr scalar Y_trial_by_K3_B3_K4_B4 = 0.11963675640392056;  // factor of the force held there [1]
   static constexpr scalar Y_trial_by_K = 0.8803632435960794;  // factor of the force held there [1]

@@ -13,7 +13,7 @@
 //   device 'faithful' is the paper's rule: in series, damper_3 turns 100 % of the energy into heat at low
 //   frequency, and the brake follows it; with the contact no more than the feedthrough damping, so that the motor
 //   compensates nothing
-//   states: what is kept of the past follows the measured position (position driven, as a network with a contact
+//   states: what the law remembers follows the measured position (position driven, as a network with a contact
 //   always is)
 //   contact: at 0.001 m; brake and motor 0 while the tool is free
 //   late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
@@ -25,16 +25,17 @@
 //   brake: makes b = 3 N·s/m of damping, and the motor the rest of the force; by the rule 'faithful': without a
 //   device 'faithful' is the paper's rule: in series, damper_2 turns 100 % of the energy into heat at low
 //   frequency, and the brake follows it
-//   states: what is kept of the past follows the measured position (position driven, as a network with a static
+//   states: what the law remembers follows the measured position (position driven, as a network with a static
 //   curve always is)
 //   late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
 // port guide
-//   brake: makes b = 2 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by
-//   the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in parallel add
+//   brake: makes b = 2 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
+//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in
+//   parallel add
 //   behind slip_3: velocity-free, the only damping of what slides is at the tool; b = 0 N·s/m stuck, 0 sliding
-//   states: what is kept of the past follows the measured position (position driven: on an ideal device position
-//   and velocity do equally well)
+//   states: what the law remembers follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
 //   late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
 // passivity: not certified: port 'pad': a static curve's steepness changes while the tool moves, and no device
@@ -42,12 +43,12 @@
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 35 additions, 22 multiplications, 1 guard against subnormal numbers
 // cost of update(): 2 additions, 4 multiplications, 3 guards against subnormal numbers; 14 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 3.4e-14 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -65,7 +66,7 @@ class finger_pad {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -80,7 +81,8 @@ class finger_pad {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     if (!dashpot::all_finite(position)) position = 0;
     // x = u − u0
@@ -91,11 +93,11 @@ class finger_pad {
     const scalar pad_cell = pad_in_cells > 0 ? pad_in_cells : pad_centre;
     // d = |x| − x_i
     const scalar pad_within = pad_distance - pad_cell_begins[static_cast<int>(pad_cell)];
-    // e d
+    // map_e d
     const scalar pad_map_cubic = pad_map_e[static_cast<int>(pad_cell)] * pad_within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar pad_map_bend = pad_map_c[static_cast<int>(pad_cell)] + pad_map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar pad_mapped_size = pad_map_a[static_cast<int>(pad_cell)] +
         pad_within * (pad_map_b[static_cast<int>(pad_cell)] + pad_within * pad_map_bend);
     // w with the sign of x
@@ -108,11 +110,11 @@ class finger_pad {
     const scalar skin_cell = skin_in_cells > 0 ? skin_in_cells : skin_centre;
     // d = |x| − x_i
     const scalar skin_within = skin_distance - skin_cell_begins[static_cast<int>(skin_cell)];
-    // e d
+    // map_e d
     const scalar skin_map_cubic = skin_map_e[static_cast<int>(skin_cell)] * skin_within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar skin_map_bend = skin_map_c[static_cast<int>(skin_cell)] + skin_map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar skin_mapped_size = skin_map_a[static_cast<int>(skin_cell)] +
         skin_within * (skin_map_b[static_cast<int>(skin_cell)] + skin_within * skin_map_bend);
     // w with the sign of x
@@ -145,25 +147,25 @@ class finger_pad {
     const scalar pad_cell = pad_in_cells > 0 ? pad_in_cells : pad_centre;
     // d = |x| − x_i
     const scalar pad_within = pad_distance - pad_cell_begins[static_cast<int>(pad_cell)];
-    // e d
+    // map_e d
     const scalar pad_map_cubic = pad_map_e[static_cast<int>(pad_cell)] * pad_within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar pad_map_bend = pad_map_c[static_cast<int>(pad_cell)] + pad_map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar pad_mapped_size = pad_map_a[static_cast<int>(pad_cell)] +
         pad_within * (pad_map_b[static_cast<int>(pad_cell)] + pad_within * pad_map_bend);
     // w with the sign of x
     const scalar pad_mapped = pad_depth > 0 ? pad_mapped_size : pad_centre - pad_mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar pad_tangent = pad_map_b[static_cast<int>(pad_cell)] + pad_within * (pad_map_bend + pad_map_bend +
         pad_map_cubic);
     // Δ = u − s₋
     const scalar pad_approach = pad_mapped - pad_surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar pad_held_force = pad_static_stiffness * pad_surface_ + pad_spring_2_damper_3_force_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar pad_surface_recovery = pad_recovery_compliance * pad_held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar pad_surface_change = pad_surface_recovery - pad_approach > 0 ? pad_surface_recovery : pad_approach;
     // gap = s − u
     const scalar pad_gap = pad_surface_change - pad_approach;
@@ -187,16 +189,16 @@ class finger_pad {
     const scalar skin_cell = skin_in_cells > 0 ? skin_in_cells : skin_centre;
     // d = |x| − x_i
     const scalar skin_within = skin_distance - skin_cell_begins[static_cast<int>(skin_cell)];
-    // e d
+    // map_e d
     const scalar skin_map_cubic = skin_map_e[static_cast<int>(skin_cell)] * skin_within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar skin_map_bend = skin_map_c[static_cast<int>(skin_cell)] + skin_map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar skin_mapped_size = skin_map_a[static_cast<int>(skin_cell)] +
         skin_within * (skin_map_b[static_cast<int>(skin_cell)] + skin_within * skin_map_bend);
     // w with the sign of x
     const scalar skin_mapped = position > 0 ? skin_mapped_size : skin_centre - skin_mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar skin_tangent = skin_map_b[static_cast<int>(skin_cell)] + skin_within * (skin_map_bend +
         skin_map_bend + skin_map_cubic);
     // ẇ = w′ u̇
@@ -214,10 +216,10 @@ class finger_pad {
     const scalar skin_brake_command = skin_tangent_squared * skin_mapped_damping;
     // Δu = u − u₋
     const scalar guide_position_change = position - guide_last_position_;
-    // t = stuck trial
+    // trial = force of the slip if it held
     const scalar guide_slip_3_trial_2 = guide_slip_3_trial_by_change_2 * guide_position_change +
         guide_spring_2_spring_force_2_;
-    // s = clamp(t, ±Y)
+    // slip = clamp(trial, ±Y)
     const scalar guide_slip_3_slip_2 = dashpot::clamp_to(guide_slip_3_yield_2, guide_slip_3_trial_2);
     // m = f − b u̇
     const scalar guide_force = guide_slip_3_slip_2;
@@ -239,7 +241,7 @@ class finger_pad {
     return {brake_command, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -259,7 +261,7 @@ class finger_pad {
     guide_last_position_ = guide_sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // x = u − u0
     const scalar pad_depth = position - pad_surface_at;
@@ -269,25 +271,25 @@ class finger_pad {
     const scalar pad_cell = pad_in_cells > 0 ? pad_in_cells : pad_centre;
     // d = |x| − x_i
     const scalar pad_within = pad_distance - pad_cell_begins[static_cast<int>(pad_cell)];
-    // e d
+    // map_e d
     const scalar pad_map_cubic = pad_map_e[static_cast<int>(pad_cell)] * pad_within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar pad_map_bend = pad_map_c[static_cast<int>(pad_cell)] + pad_map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar pad_mapped_size = pad_map_a[static_cast<int>(pad_cell)] +
         pad_within * (pad_map_b[static_cast<int>(pad_cell)] + pad_within * pad_map_bend);
     // w with the sign of x
     const scalar pad_mapped = pad_depth > 0 ? pad_mapped_size : pad_centre - pad_mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar pad_tangent = pad_map_b[static_cast<int>(pad_cell)] + pad_within * (pad_map_bend + pad_map_bend +
         pad_map_cubic);
     // Δ = u − s₋
     const scalar pad_approach = pad_mapped - pad_surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar pad_held_force = pad_static_stiffness * pad_surface_ + pad_spring_2_damper_3_force_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar pad_surface_recovery = pad_recovery_compliance * pad_held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar pad_surface_change = pad_surface_recovery - pad_approach > 0 ? pad_surface_recovery : pad_approach;
     // gap = s − u
     const scalar pad_gap = pad_surface_change - pad_approach;
@@ -311,16 +313,16 @@ class finger_pad {
     const scalar skin_cell = skin_in_cells > 0 ? skin_in_cells : skin_centre;
     // d = |x| − x_i
     const scalar skin_within = skin_distance - skin_cell_begins[static_cast<int>(skin_cell)];
-    // e d
+    // map_e d
     const scalar skin_map_cubic = skin_map_e[static_cast<int>(skin_cell)] * skin_within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar skin_map_bend = skin_map_c[static_cast<int>(skin_cell)] + skin_map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar skin_mapped_size = skin_map_a[static_cast<int>(skin_cell)] +
         skin_within * (skin_map_b[static_cast<int>(skin_cell)] + skin_within * skin_map_bend);
     // w with the sign of x
     const scalar skin_mapped = position > 0 ? skin_mapped_size : skin_centre - skin_mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar skin_tangent = skin_map_b[static_cast<int>(skin_cell)] + skin_within * (skin_map_bend +
         skin_map_bend + skin_map_cubic);
     // ẇ = w′ u̇
@@ -338,10 +340,10 @@ class finger_pad {
     const scalar skin_brake_command = skin_tangent_squared * skin_mapped_damping;
     // Δu = u − u₋
     const scalar guide_position_change = position - guide_last_position_;
-    // t = stuck trial
+    // trial = force of the slip if it held
     const scalar guide_slip_3_trial_2 = guide_slip_3_trial_by_change_2 * guide_position_change +
         guide_spring_2_spring_force_2_;
-    // s = clamp(t, ±Y)
+    // slip = clamp(trial, ±Y)
     const scalar guide_slip_3_slip_2 = dashpot::clamp_to(guide_slip_3_yield_2, guide_slip_3_trial_2);
     // m = f − b u̇
     const scalar guide_force = guide_slip_3_slip_2;
@@ -375,7 +377,7 @@ class finger_pad {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar pad_spring_2_damper_3_energy = pad_spring_2_damper_3_energy_weight * pad_spring_2_damper_3_force_ *
@@ -399,25 +401,25 @@ class finger_pad {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar pad_static_stiffness = 400.0;  // k0 [N/m]
-  static constexpr scalar pad_none = 0.0;  // of a free tool [N]
+  static constexpr scalar pad_none = 0.0;  // no force on a free tool [N]
   static constexpr scalar pad_recovery_compliance = -0.0016694398148327846;  // −1/g [m/N]
-  static constexpr scalar pad_step_stiffness = 199.00332501663894;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar pad_step_stiffness = 199.00332501663894;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar pad_spring_2_damper_3_gain = 197.02320884825502;  // a c [N/m]
   static constexpr scalar pad_spring_2_damper_3_decay = 0.9900498337491681;  // a = e^{−λh} [1]
   static constexpr scalar pad_half_static_stiffness = 200.0;  // ½ k0 [N/m]
   static constexpr scalar pad_spring_2_damper_3_energy_weight = 0.0025505033500668895;  // 1/(2 k a²) [m/N]
   static constexpr scalar pad_surface_at = 0.001;  // where the unloaded surface lies [m]
-  static constexpr scalar pad_centre = 0.0;  // of the map, which is odd [m]
-  static constexpr scalar pad_cells_per_length = 6400.0;  // of the map [1/m]
-  static constexpr scalar pad_last_cell = 32.0;  // of the map [1]
-  // of each cell [m]
+  static constexpr scalar pad_centre = 0.0;  // centre of the map [m]
+  static constexpr scalar pad_cells_per_length = 6400.0;  // cells of the map per length [1/m]
+  static constexpr scalar pad_last_cell = 32.0;  // number of the map's last cell [1]
+  // where each cell begins [m]
   static constexpr scalar pad_cell_begins[33] = {0.0, 0.00015625, 0.0003125, 0.00046875, 0.000625, 0.00078125,
       0.0009375, 0.00109375, 0.00125, 0.00140625, 0.0015625, 0.00171875, 0.001875, 0.00203125, 0.0021875,
       0.00234375, 0.0025, 0.00265625, 0.0028125, 0.00296875, 0.003125, 0.00328125, 0.0034375, 0.00359375, 0.00375,
       0.00390625, 0.0040625, 0.00421875, 0.004375, 0.00453125, 0.0046875, 0.00484375, 0.005};
-  // e of each cell [1/m²]
+  // coefficient of d³ in each cell [1/m²]
   static constexpr scalar pad_map_e[33] = {-11552572.7019614, -312991.0219491911, -123446.29039552307,
       -67851.37270936777, -43536.00476938172, -30582.695174279703, -22804.403836186673, -17739.885624102928,
       -14243.56006516885, -11720.355011553926, -9834.91399216829, -8385.938048924203, -7246.354516388986,
@@ -425,7 +427,7 @@ class finger_pad {
       -3647.3687284143793, -3326.2459579694987, -3047.4219211698646, -2803.646389486735, -2589.1744157695,
       -2399.4038667280647, -2230.6112956179036, -2079.7567062370854, -1944.337345420697, -1822.2768950209659,
       -1711.8405636526813, -1611.5693603828533, -1520.2287360956227, -1436.7680996435786, 0.0};
-  // c of each cell [1/m]
+  // coefficient of d² in each cell [1/m]
   static constexpr scalar pad_map_c[33] = {4211.875464256761, 357.970415534616, 219.77114384752517,
       163.5282227208473, 132.2506931012247, 112.06728352624496, 97.84355666794643, 87.21637420284293,
       78.9384559860928, 72.28592838099873, 66.80824113666826, 62.209460419241275, 58.28672217575743,
@@ -451,21 +453,21 @@ class finger_pad {
       0.9814222781065766, 0.9940884109588133, 1.006288096981291, 1.0180595498231242, 1.0294362825660086,
       1.0404478625719542, 1.051120519067143, 1.0614776368734749, 1.0715401611370499, 1.0813269317680276,
       1.090854961849299, 1.1001396709917417, 1.1091950821719079, 1.118033988749895};
-  static constexpr scalar skin_step_stiffness = 285.48774589212127;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar skin_step_stiffness = 285.48774589212127;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar skin_velocity_gain = -3.0;  // b∞ − b [N·s/m]
   static constexpr scalar skin_spring_1_damper_2_gain = 258.3199948739331;  // a c [N/m]
   static constexpr scalar skin_spring_1_damper_2_decay = 0.9048374180359596;  // a = e^{−λh} [1]
   static constexpr scalar skin_spring_1_damper_2_energy_weight = 0.002035671263600283;  // 1/(2 k a²) [m/N]
-  static constexpr scalar skin_centre = 0.0;  // of the map, which is odd [m]
-  static constexpr scalar skin_cells_per_length = 5333.333333333333;  // of the map [1/m]
-  static constexpr scalar skin_last_cell = 32.0;  // of the map [1]
-  // of each cell [m]
+  static constexpr scalar skin_centre = 0.0;  // centre of the map [m]
+  static constexpr scalar skin_cells_per_length = 5333.333333333333;  // cells of the map per length [1/m]
+  static constexpr scalar skin_last_cell = 32.0;  // number of the map's last cell [1]
+  // where each cell begins [m]
   static constexpr scalar skin_cell_begins[33] = {0.0, 0.0001875, 0.000375, 0.0005625000000000001, 0.00075,
       0.0009375, 0.0011250000000000001, 0.0013125, 0.0015, 0.0016875, 0.001875, 0.0020625, 0.0022500000000000003,
       0.0024375, 0.002625, 0.0028125, 0.003, 0.0031875000000000002, 0.003375, 0.0035625, 0.00375, 0.0039375,
       0.004125, 0.0043125, 0.0045000000000000005, 0.0046875, 0.004875, 0.0050625, 0.00525, 0.0054375000000000005,
       0.005625, 0.0058125, 0.006};
-  // e of each cell [1/m²]
+  // coefficient of d³ in each cell [1/m²]
   static constexpr scalar skin_map_e[33] = {-1836080.9937575902, -130486.25863413925, -58953.03913531227,
       -35322.31770183238, -24154.779246330458, -17848.75623680434, -13880.260907251526, -11192.70316979955,
       -9273.372879640752, -7846.356679192936, -6751.301635317907, -5889.293123391566, -5196.340026059957,
@@ -473,7 +475,7 @@ class finger_pad {
       -2885.115812927568, -2665.980889634868, -2473.2496775323098, -2302.672934382106, -2150.842010898061,
       -2014.994165674672, -1892.8690156402272, -1782.6012262897275, -1682.6392798190177, -1591.6832723156524,
       -1508.6367754074442, -1432.5692163774554, -1362.6862110438417, -1298.305970647037, 0.0};
-  // c of each cell [1/m]
+  // coefficient of d² in each cell [1/m]
   static constexpr scalar skin_map_c[33] = {1032.7955589886444, 250.5982240867509, 180.71098991650098,
       148.30276984236897, 128.69851105363747, 115.23048837970143, 105.2528614407592, 97.48133231900263,
       91.20798792492275, 86.00661118850832, 81.60331888483162, 77.8130685354351, 74.50576113502309,
@@ -499,8 +501,8 @@ class finger_pad {
       0.8660254037844386, 0.8874119674649424, 0.9082951062292475, 0.9287087810503355, 0.9486832980505138,
       0.9682458365518543, 0.9874208829065749, 1.0062305898749053, 1.02469507659596, 1.0428326807307104,
       1.0606601717798212, 1.0781929326423911, 1.0954451150103321};
-  static constexpr scalar skin_mapped_damping = 3.0;  // b behind the map [N·s/m]
-  static constexpr scalar guide_slip_3_trial_by_change_2 = 2000.0;  // for a change of position [N/m]
+  static constexpr scalar skin_mapped_damping = 3.0;  // b_w, b behind the map [N·s/m]
+  static constexpr scalar guide_slip_3_trial_by_change_2 = 2000.0;  // factor of the change of position [N/m]
   static constexpr scalar guide_slip_3_yield_2 = 0.2;  // Y [N]
   static constexpr scalar guide_spring_2_compliance_2 = 0.00025;  // 1/(2 k) [m/N]
   static constexpr scalar steady_damping = 2.0;  // b of the ports whose brake does not change [N·s/m]

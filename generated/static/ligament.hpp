@@ -8,8 +8,8 @@
 // scheme: exact at 1000 Hz, double: a motion whose w is straight between two samples is answered exactly
 // brake: makes b = 0.42000000000000004 N·m·s/rad of damping, and the motor the rest of the force; by the rule
 //   'paper': in series, damper_3 turns 100 % of the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven, as a network with a static
-//   curve always is)
+// states: what the law remembers follows the measured position (position driven, as a network with a static curve
+//   always is)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
 // passivity: not certified: a static curve's steepness changes while the tool moves, and no device states how fast
@@ -17,12 +17,12 @@
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 13 additions, 12 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 1 guard against subnormal numbers; 5 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 6.7e-14 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -40,7 +40,7 @@ class ligament {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::rotation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -55,7 +55,8 @@ class ligament {
 
   struct parameters {};
 
-  // At rest at `position` [rad], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [rad]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     if (!dashpot::all_finite(position)) position = 0;
     // |x|
@@ -64,11 +65,11 @@ class ligament {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
@@ -90,16 +91,16 @@ class ligament {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
     const scalar mapped = position > 0 ? mapped_size : centre - mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar tangent = map_b[static_cast<int>(cell)] + within * (map_bend + map_bend + map_cubic);
     // ẇ = w′ u̇
     const scalar mapped_velocity = tangent * velocity;
@@ -123,7 +124,7 @@ class ligament {
     return {brake_command, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -134,7 +135,7 @@ class ligament {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // |x|
     const scalar distance = position > 0 ? position : centre - position;
@@ -142,16 +143,16 @@ class ligament {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
     const scalar mapped = position > 0 ? mapped_size : centre - mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar tangent = map_b[static_cast<int>(cell)] + within * (map_bend + map_bend + map_cubic);
     // ẇ = w′ u̇
     const scalar mapped_velocity = tangent * velocity;
@@ -183,7 +184,7 @@ class ligament {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar spring_2_damper_3_energy = spring_2_damper_3_energy_weight * spring_2_damper_3_force_ *
@@ -194,18 +195,18 @@ class ligament {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 5.0;  // k0 [N·m/rad]
-  static constexpr scalar step_stiffness = 1.9950083229270748;  // Σ c_i, answer of all modes within a sample [N·m/rad]
+  static constexpr scalar step_stiffness = 1.9950083229270748;  // Σ c_i, stiffness of all modes within a sample [N·m/rad]
   static constexpr scalar velocity_gain = -0.4;  // b∞ − b [N·m·s/rad]
   static constexpr scalar spring_2_damper_3_gain = 1.985058177405704;  // a c [N·m/rad]
   static constexpr scalar spring_2_damper_3_decay = 0.9950124791926823;  // a = e^{−λh} [1]
   static constexpr scalar half_static_stiffness = 2.5;  // ½ k0 [N·m/rad]
   static constexpr scalar spring_2_damper_3_energy_weight = 0.252512541771042;  // 1/(2 k a²) [rad/N·m]
-  static constexpr scalar centre = 0.0;  // of the map, which is odd [rad]
-  static constexpr scalar cells_per_length = 61.1154981472878;  // of the map [1/rad]
-  static constexpr scalar last_cell = 32.0;  // of the map [1]
-  // of each cell [rad]
+  static constexpr scalar centre = 0.0;  // centre of the map [rad]
+  static constexpr scalar cells_per_length = 61.1154981472878;  // cells of the map per length [1/rad]
+  static constexpr scalar last_cell = 32.0;  // number of the map's last cell [1]
+  // where each cell begins [rad]
   static constexpr scalar cell_begins[33] = {0.0, 0.01636246173744684, 0.03272492347489368, 0.049087385212340524,
       0.06544984694978737, 0.08181230868723421, 0.09817477042468105, 0.11453723216212788, 0.13089969389957473,
       0.14726215563702158, 0.16362461737446843, 0.17998707911191525, 0.1963495408493621, 0.21271200258680895,
@@ -213,7 +214,7 @@ class ligament {
       0.31088677301149, 0.32724923474893686, 0.3436116964863837, 0.3599741582238305, 0.3763366199612774,
       0.3926990816987242, 0.409061543436171, 0.4254240051736179, 0.4417864669110647, 0.45814892864851153,
       0.4745113903859584, 0.49087385212340523, 0.5072363138608521, 0.5235987755982989};
-  // e of each cell [1/rad²]
+  // coefficient of d³ in each cell [1/rad²]
   static constexpr scalar map_e[33] = {0.3031988795842966, 0.3139601228417473, 0.32509322017102354,
       0.3366101337891429, 0.3485231881061274, 0.3608450817942815, 0.3735889003879129, 0.38676812943536254,
       0.4003966682253144, 0.4144888441094101, 0.42905942744319786, 0.44412364716740177, 0.45969720705141665,
@@ -221,7 +222,7 @@ class ligament {
       0.5647783656839246, 0.5844006349065567, 0.6046771531147341, 0.6256287483959573, 0.6472769272216133,
       0.6696438993696243, 0.6927526037578108, 0.7166267352077187, 0.7412907721586995, 0.7667700053521604,
       0.7930905675061033, 0.8202794640003769, 0.8483646045934652, 0.8773748361921481, 0.0};
-  // c of each cell [1/rad]
+  // coefficient of d² in each cell [1/rad]
   static constexpr scalar map_c[33] = {0.4468746687487857, 0.4617567112663678, 0.47716695651142466,
       0.49312365666196734, 0.5096456510513107, 0.5267523839454805, 0.5444639229129988, 0.5628009778130847,
       0.5817849204293818, 0.6014378047774027, 0.6217823881149604, 0.6428421526859409, 0.6646413282288467,
@@ -245,7 +246,7 @@ class ligament {
       1.0302111161076335, 1.0572511594672565, 1.0852141434677924, 1.114132112239749, 1.1440381775442994,
       1.1749665527733768, 1.206952588059431, 1.2400328065356132, 1.274244941788636, 1.3096279765480556,
       1.3462221826572804, 1.3840691623731702, 1.423211891042709, 1.4636947612068676, 1.5055636281834504};
-  static constexpr scalar mapped_damping = 0.42000000000000004;  // b behind the map [N·m·s/rad]
+  static constexpr scalar mapped_damping = 0.42000000000000004;  // b_w, b behind the map [N·m·s/rad]
 
   scalar spring_2_damper_3_force_ = 0;  // force of the mode, decayed to the next sample [N·m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [rad]

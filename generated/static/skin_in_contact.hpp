@@ -12,7 +12,7 @@
 //   damper_3 turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, damper_5
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it; with the contact no more than
 //   the feedthrough damping, so that the motor compensates nothing
-// states: what is kept of the past follows the measured position (position driven, as a network with a contact
+// states: what the law remembers follows the measured position (position driven, as a network with a contact
 //   always is)
 // contact: at 0.002 m; brake and motor 0 while the tool is free
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
@@ -22,12 +22,12 @@
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 18 additions, 10 multiplications, 1 guard against subnormal numbers
 // cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 3.3e-13 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -45,7 +45,7 @@ class skin_in_contact {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -60,7 +60,8 @@ class skin_in_contact {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     if (!dashpot::all_finite(position)) position = 0;
     // x = u − u0
@@ -71,11 +72,11 @@ class skin_in_contact {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
@@ -102,24 +103,24 @@ class skin_in_contact {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
     const scalar mapped = depth > 0 ? mapped_size : centre - mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar tangent = map_b[static_cast<int>(cell)] + within * (map_bend + map_bend + map_cubic);
     // Δ = u − s₋
     const scalar approach = mapped - surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar held_force = static_stiffness * surface_ + relaxed_force_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar surface_recovery = recovery_compliance * held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar surface_change = surface_recovery - approach > 0 ? surface_recovery : approach;
     // gap = s − u
     const scalar gap = surface_change - approach;
@@ -143,7 +144,7 @@ class skin_in_contact {
     return {damping, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -160,7 +161,7 @@ class skin_in_contact {
     surface_ = sampled_surface_now_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // x = u − u0
     const scalar depth = position - surface_at;
@@ -170,24 +171,24 @@ class skin_in_contact {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
     const scalar mapped = depth > 0 ? mapped_size : centre - mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar tangent = map_b[static_cast<int>(cell)] + within * (map_bend + map_bend + map_cubic);
     // Δ = u − s₋
     const scalar approach = mapped - surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar held_force = static_stiffness * surface_ + relaxed_force_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar surface_recovery = recovery_compliance * held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar surface_change = surface_recovery - approach > 0 ? surface_recovery : approach;
     // gap = s − u
     const scalar gap = surface_change - approach;
@@ -225,7 +226,7 @@ class skin_in_contact {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     // spring_4, damper_5
@@ -242,11 +243,11 @@ class skin_in_contact {
 
  private:
   static constexpr scalar damping = 0.0;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 150.0;  // k0 [N/m]
-  static constexpr scalar none = 0.0;  // of a free tool [N]
+  static constexpr scalar none = 0.0;  // no force on a free tool [N]
   static constexpr scalar recovery_compliance = -0.0033386584239085727;  // −1/g [m/N]
-  static constexpr scalar step_stiffness = 149.52150625498803;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar step_stiffness = 149.52150625498803;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar spring_4_damper_5_gain = 59.91006996251549;  // a c [N/m]
   static constexpr scalar spring_2_damper_3_gain = 88.66044398171476;  // a c [N/m]
   static constexpr scalar spring_4_damper_5_decay = 0.999000499833375;  // a = e^{−λh} [1]
@@ -255,10 +256,10 @@ class skin_in_contact {
   static constexpr scalar spring_4_damper_5_energy_weight = 0.008350016677783335;  // 1/(2 k a²) [m/N]
   static constexpr scalar spring_2_damper_3_energy_weight = 0.0056677852223708655;  // 1/(2 k a²) [m/N]
   static constexpr scalar surface_at = 0.002;  // where the unloaded surface lies [m]
-  static constexpr scalar centre = 0.0;  // of the map, which is odd [m]
-  static constexpr scalar cells_per_length = 21333.333333333332;  // of the map [1/m]
-  static constexpr scalar last_cell = 128.0;  // of the map [1]
-  // of each cell [m]
+  static constexpr scalar centre = 0.0;  // centre of the map [m]
+  static constexpr scalar cells_per_length = 21333.333333333332;  // cells of the map per length [1/m]
+  static constexpr scalar last_cell = 128.0;  // number of the map's last cell [1]
+  // where each cell begins [m]
   static constexpr scalar cell_begins[129] = {0.0, 4.6875e-05, 9.375e-05, 0.00014062500000000002, 0.0001875,
       0.000234375, 0.00028125000000000003, 0.000328125, 0.000375, 0.000421875, 0.00046875, 0.000515625,
       0.0005625000000000001, 0.000609375, 0.00065625, 0.000703125, 0.00075, 0.0007968750000000001, 0.00084375,
@@ -277,7 +278,7 @@ class skin_in_contact {
       0.005203125, 0.00525, 0.005296875, 0.00534375, 0.0053906250000000005, 0.0054375000000000005,
       0.0054843750000000005, 0.00553125, 0.005578125, 0.005625, 0.005671875, 0.00571875, 0.005765625, 0.0058125,
       0.005859375, 0.00590625, 0.005953125, 0.006};
-  // e of each cell [1/m²]
+  // coefficient of d³ in each cell [1/m²]
   static constexpr scalar map_e[129] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
       0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1519243.5492316422, -143847.49736657052, -122651.64021658845,
       -104720.30538041727, -89595.38810495519, -76852.05541846628, -66113.25262033661, -57053.28573145161,
@@ -301,7 +302,7 @@ class skin_in_contact {
       -21636.33584154151, -20496.094688773683, -19424.103041094866, -18416.033331976145, -17467.82074469095,
       -16575.651987022844, -15735.953474457247, -14945.37921247589, -14200.798605754539, -13499.284370479216,
       -12838.100683835912, -12214.69167044665, -11626.670297802377, -11071.807730463735, 0.0};
-  // c of each cell [1/m]
+  // coefficient of d² in each cell [1/m]
   static constexpr scalar map_c[129] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
       0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 3.4224869946035605, 157.52735785131995, 137.3315971849287, 120.11213040803165,
       105.4100805060178, 92.83119985074701, 82.0410564031793, 72.75824124816715, 64.7471094613219,

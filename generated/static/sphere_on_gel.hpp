@@ -11,7 +11,7 @@
 // brake: makes b = 0.4 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series,
 //   damper_4 turns 100 % of the energy into heat at low frequency, and the brake follows it; with the contact no
 //   more than the feedthrough damping, so that the motor compensates nothing
-// states: what is kept of the past follows the measured position (position driven, as a network with a contact
+// states: what the law remembers follows the measured position (position driven, as a network with a contact
 //   always is)
 // contact: at 0 m; brake and motor 0 while the tool is free
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
@@ -21,12 +21,12 @@
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 18 additions, 14 multiplications, 1 guard against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 1 guard against subnormal numbers; 6 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 6.7e-14 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -44,7 +44,7 @@ class sphere_on_gel {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -59,7 +59,8 @@ class sphere_on_gel {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     if (!dashpot::all_finite(position)) position = 0;
     // |x|
@@ -68,11 +69,11 @@ class sphere_on_gel {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
@@ -97,26 +98,26 @@ class sphere_on_gel {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
     const scalar mapped = position > 0 ? mapped_size : centre - mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar tangent = map_b[static_cast<int>(cell)] + within * (map_bend + map_bend + map_cubic);
     // ẇ = w′ u̇
     const scalar mapped_velocity = tangent * velocity;
     // Δ = u − s₋
     const scalar approach = mapped - surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar held_force = static_stiffness * surface_ + spring_3_damper_4_force_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar surface_recovery = recovery_compliance * held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar surface_change = surface_recovery - approach > 0 ? surface_recovery : approach;
     // gap = s − u
     const scalar gap = surface_change - approach;
@@ -149,7 +150,7 @@ class sphere_on_gel {
     return {brake_command, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -160,7 +161,7 @@ class sphere_on_gel {
     surface_ = sampled_surface_now_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // |x|
     const scalar distance = position > 0 ? position : centre - position;
@@ -168,26 +169,26 @@ class sphere_on_gel {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
     const scalar mapped = position > 0 ? mapped_size : centre - mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar tangent = map_b[static_cast<int>(cell)] + within * (map_bend + map_bend + map_cubic);
     // ẇ = w′ u̇
     const scalar mapped_velocity = tangent * velocity;
     // Δ = u − s₋
     const scalar approach = mapped - surface_;
-    // π = k0 s₋ + S
+    // k0 s₋ + S
     const scalar held_force = static_stiffness * surface_ + spring_3_damper_4_force_;
-    // f = 0 at Δs = −π/g
+    // Δs where f = 0: −held force/g
     const scalar surface_recovery = recovery_compliance * held_force;
-    // f ≥ 0
+    // Δs = Δ, but no lower than where f = 0
     const scalar surface_change = surface_recovery - approach > 0 ? surface_recovery : approach;
     // gap = s − u
     const scalar gap = surface_change - approach;
@@ -227,7 +228,7 @@ class sphere_on_gel {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar spring_3_damper_4_energy = spring_3_damper_4_energy_weight * spring_3_damper_4_force_ *
@@ -238,27 +239,27 @@ class sphere_on_gel {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 400.0;  // k0 [N/m]
-  static constexpr scalar none = 0.0;  // of a free tool [N]
+  static constexpr scalar none = 0.0;  // no force on a free tool [N]
   static constexpr scalar recovery_compliance = -0.0010004994170001314;  // −1/g [m/N]
-  static constexpr scalar step_stiffness = 199.50083229270746;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar step_stiffness = 199.50083229270746;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar feedthrough = 0.4;  // b∞ [N·s/m]
   static constexpr scalar contact_damping = 0.4;  // b while the tool touches [N·s/m]
   static constexpr scalar spring_3_damper_4_gain = 198.5058177405704;  // a c [N/m]
   static constexpr scalar spring_3_damper_4_decay = 0.9950124791926823;  // a = e^{−λh} [1]
   static constexpr scalar half_static_stiffness = 200.0;  // ½ k0 [N/m]
   static constexpr scalar spring_3_damper_4_energy_weight = 0.00252512541771042;  // 1/(2 k a²) [m/N]
-  static constexpr scalar centre = 0.0;  // of the map, which is odd [m]
-  static constexpr scalar cells_per_length = 5333.333333333333;  // of the map [1/m]
-  static constexpr scalar last_cell = 32.0;  // of the map [1]
-  // of each cell [m]
+  static constexpr scalar centre = 0.0;  // centre of the map [m]
+  static constexpr scalar cells_per_length = 5333.333333333333;  // cells of the map per length [1/m]
+  static constexpr scalar last_cell = 32.0;  // number of the map's last cell [1]
+  // where each cell begins [m]
   static constexpr scalar cell_begins[33] = {0.0, 0.0001875, 0.000375, 0.0005625000000000001, 0.00075, 0.0009375,
       0.0011250000000000001, 0.0013125, 0.0015, 0.0016875, 0.001875, 0.0020625, 0.0022500000000000003, 0.0024375,
       0.002625, 0.0028125, 0.003, 0.0031875000000000002, 0.003375, 0.0035625, 0.00375, 0.0039375, 0.004125,
       0.0043125, 0.0045000000000000005, 0.0046875, 0.004875, 0.0050625, 0.00525, 0.0054375000000000005, 0.005625,
       0.0058125, 0.006};
-  // e of each cell [1/m²]
+  // coefficient of d³ in each cell [1/m²]
   static constexpr scalar map_e[33] = {-10525622.108334724, -285168.10110871284, -112472.696506677,
       -61819.81512648931, -39665.92949736377, -27864.087140019252, -20777.2366708246, -16162.922072992897,
       -12977.39772699123, -10678.489632547293, -8960.652386282898, -7640.481233404911, -6602.1994641579295,
@@ -266,7 +267,7 @@ class sphere_on_gel {
       -3323.140733711123, -3030.5637450797967, -2776.5254003935875, -2554.419970551163, -2359.0131978421673,
       -2186.112049497762, -2032.324069622238, -1894.8794984349981, -1771.4980616868413, -1660.288012771713,
       -1559.6687722785507, -1468.3110443339312, -1385.0900234245767, -1309.048509306585, 0.0};
-  // c of each cell [1/m]
+  // coefficient of d² in each cell [1/m]
   static constexpr scalar map_c[33] = {4604.959672396441, 391.37893355039915, 240.2818561856215,
       178.78991848612245, 144.593332244947, 122.52625359245812, 106.97506051244024, 95.35606866467535,
       86.30559224792857, 79.03220023979897, 73.04329361798521, 68.01531975559026, 63.72648178544908,

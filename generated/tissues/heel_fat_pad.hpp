@@ -173,7 +173,7 @@ class heel_fat_pad {
 
  private:
   static constexpr scalar damping = 1250.7152;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 903.0;  // k0 [N/m]
   static constexpr scalar step_stiffness = 4759.8822504106665;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -1250.7152;  // b∞ − b [N·s/m]

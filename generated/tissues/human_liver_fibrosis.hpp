@@ -125,7 +125,7 @@ class human_liver_fibrosis {
 
  private:
   static constexpr scalar damping = 0.576;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 116.4;  // k0 [N/m]
   static constexpr scalar step_stiffness = 164.1369076397129;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -0.576;  // b∞ − b [N·s/m]

@@ -157,7 +157,7 @@ class needle_in_liver {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 62.4;  // k0 [N/m]
   static constexpr scalar none = 0.0;  // no force on a free tool [N]
   static constexpr scalar feedthrough_stiffness = -5000.0;  // −b∞/h [N/m]

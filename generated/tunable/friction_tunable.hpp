@@ -233,7 +233,7 @@ class friction_tunable {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar zero = 0.0;  // nothing [1]
   static constexpr scalar spring_2_least_answer = 0.0002980232238769531;  // smallest g, whatever the parameters are [N/m]
   static constexpr scalar friction_least_yield = 2.980232238769531e-07;  // smallest Y, whatever the parameters are [N]

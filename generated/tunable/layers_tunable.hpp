@@ -320,7 +320,7 @@ class layers_tunable {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar drag = 3.0;  // as in the network [N s/m]
   static constexpr scalar presliding = 4000.0;  // as in the network [N/m]
   static constexpr scalar skin_elasticity = 400.0;  // as in the network [N/m]

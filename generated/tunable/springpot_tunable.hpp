@@ -655,7 +655,7 @@ class springpot_tunable {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar rest = 40.0;  // as in the network [N/m]
   static constexpr scalar muscle_spring_1_share = 0.5529489387983896;  // factor of K [1]
   static constexpr scalar muscle_damper_1_share = 12.628169563370793;  // factor of K [1]

@@ -251,7 +251,7 @@ class standard_solid_tunable {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar B1 = 8.0;  // as in the network [N s/m]
   static constexpr scalar K2 = 600.0;  // as in the network [N/m]
   static constexpr scalar rate = 1000.0;  // 1/h [Hz]

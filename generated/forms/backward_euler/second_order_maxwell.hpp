@@ -134,7 +134,7 @@ class second_order_maxwell {
 
  private:
   static constexpr scalar damping = 11.0;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 5.0;  // k0 [N/m]
   static constexpr scalar step_stiffness = 21.954630019401026;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -11.0;  // b∞ − b [N·s/m]

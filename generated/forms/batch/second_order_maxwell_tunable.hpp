@@ -271,7 +271,7 @@ class second_order_maxwell_tunable {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar K3 = 5.0;  // as in the network [N/m]
   static constexpr scalar B1 = 5.0;  // as in the network [N s/m]
   static constexpr scalar K2 = 10.0;  // as in the network [N/m]

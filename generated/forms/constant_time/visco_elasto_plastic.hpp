@@ -126,7 +126,7 @@ class visco_elasto_plastic {
 
  private:
   static constexpr scalar damping = 3.3;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar Y_trial_by_change = 1000.0;  // factor of the change of position [N/m]
   static constexpr scalar Y_yield = 0.5;  // Y [N]
   static constexpr scalar Y_force_by_excess = 0.5555555555555556;  // factor of the excess [1]

@@ -156,7 +156,7 @@ class second_order_maxwell {
 
  private:
   static constexpr scalar damping = 11.0f;  // b, the brake's part
-  static constexpr scalar threshold = 8.6736174e-19f;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 8.6736174e-19f;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 5.0f;  // k0 [N/m]
   static constexpr scalar step_stiffness = 21.999773f;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -11.0f;  // b∞ − b [N·s/m]

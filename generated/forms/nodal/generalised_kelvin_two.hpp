@@ -124,7 +124,7 @@ class generalised_kelvin_two {
 
  private:
   static constexpr scalar damping = 6.0;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 57.142857142857146;  // k0 [N/m]
   static constexpr scalar step_stiffness = -24.458032240133406;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -3.5486381322957197;  // b∞ − b + h Σ c_i, force for an estimated velocity [N·s/m]

@@ -147,7 +147,7 @@ class twenty_branches {
   }
 
   static constexpr scalar damping = 6.629;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 7.0;  // k0 [N/m]
   static constexpr scalar step_stiffness = 199.30365657408584;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -6.629;  // b∞ − b [N·s/m]

@@ -107,7 +107,7 @@ class maxwell_damper_at_tool {
 
  private:
   static constexpr scalar damping = 5.0;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar velocity_gain = -4.95024916874584;  // b∞ − b + h Σ c_i, force for an estimated velocity [N·s/m]
   static constexpr scalar B_K_velocity_drive = 0.04925580221206376;  // a c h [N·s/m]
   static constexpr scalar B_K_decay = 0.9900498337491681;  // a = e^{−λh} [1]

@@ -9,7 +9,7 @@
 // brake: makes b = 849.02 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series,
 //   B1 turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 %
 //   of the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -20,12 +20,12 @@
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 1.8e-15 of the
 //   sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 11 additions, 4 multiplications, 4 guards against subnormal numbers; 8 numbers kept between
 //   samples
 // rounding: in compensated form the force of a mode is off by at most 6.7e-16 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -43,7 +43,7 @@ class brain {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -58,7 +58,8 @@ class brain {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     relaxed_force_ = 0;
@@ -87,7 +88,7 @@ class brain {
     return {damping, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -111,7 +112,7 @@ class brain {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
@@ -147,7 +148,7 @@ class brain {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar B2_K2_energy = B2_K2_energy_weight * B2_K2_force_ * B2_K2_force_;  // B2, K2
@@ -159,9 +160,9 @@ class brain {
 
  private:
   static constexpr scalar damping = 849.02;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 14.695;  // k0 [N/m]
-  static constexpr scalar step_stiffness = 25.303960455303585;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar step_stiffness = 25.303960455303585;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -849.02;  // b∞ − b [N·s/m]
   static constexpr scalar B2_K2_gain = 9.556601067056787;  // a c [N/m]
   static constexpr scalar B1_K1_gain = 15.745680401322966;  // a c [N/m]
@@ -174,8 +175,8 @@ class brain {
   scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
   scalar B2_K2_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar B1_K1_force_ = 0;  // force of the mode, decayed to the next sample [N]
-  scalar B2_K2_error_ = 0;  // what rounding kept from the force [N]
-  scalar B1_K1_error_ = 0;  // what rounding kept from the force [N]
+  scalar B2_K2_error_ = 0;  // rounding error of the force, carried along [N]
+  scalar B1_K1_error_ = 0;  // rounding error of the force, carried along [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]

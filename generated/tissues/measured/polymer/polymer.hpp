@@ -10,7 +10,7 @@
 //   series, B2 turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B3 turns
 //   100 % of the energy into heat at low frequency, and the brake follows it; in series, B4 turns 100 % of the
 //   energy into heat at low frequency, and the brake follows it; and 3 more series connections likewise
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -21,12 +21,12 @@
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 7.2e-11 of the
 //   sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 41 additions, 14 multiplications, 14 guards against subnormal numbers; 18 numbers kept between
 //   samples
 // rounding: in compensated form the force of a mode is off by at most 7.2e-11 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -44,7 +44,7 @@ class polymer {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -59,7 +59,8 @@ class polymer {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     relaxed_force_ = 0;
@@ -98,7 +99,7 @@ class polymer {
     return {damping, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -148,7 +149,7 @@ class polymer {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
@@ -210,7 +211,7 @@ class polymer {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar B7_K7_energy = B7_K7_energy_weight * B7_K7_force_ * B7_K7_force_;  // B7, K7
@@ -228,9 +229,9 @@ class polymer {
 
  private:
   static constexpr scalar damping = 9.792702982160179e+24;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 6648000.0;  // k0 [N/m]
-  static constexpr scalar step_stiffness = 15679966.95745401;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar step_stiffness = 15679966.95745401;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -9.792702982160179e+24;  // b∞ − b [N·s/m]
   static constexpr scalar B7_K7_gain = 3182000.0;  // a c [N/m]
   static constexpr scalar B6_K6_gain = 3567000.0;  // a c [N/m]
@@ -263,13 +264,13 @@ class polymer {
   scalar B3_K3_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar B2_K2_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar B1_K1_force_ = 0;  // force of the mode, decayed to the next sample [N]
-  scalar B7_K7_error_ = 0;  // what rounding kept from the force [N]
-  scalar B6_K6_error_ = 0;  // what rounding kept from the force [N]
-  scalar B5_K5_error_ = 0;  // what rounding kept from the force [N]
-  scalar B4_K4_error_ = 0;  // what rounding kept from the force [N]
-  scalar B3_K3_error_ = 0;  // what rounding kept from the force [N]
-  scalar B2_K2_error_ = 0;  // what rounding kept from the force [N]
-  scalar B1_K1_error_ = 0;  // what rounding kept from the force [N]
+  scalar B7_K7_error_ = 0;  // rounding error of the force, carried along [N]
+  scalar B6_K6_error_ = 0;  // rounding error of the force, carried along [N]
+  scalar B5_K5_error_ = 0;  // rounding error of the force, carried along [N]
+  scalar B4_K4_error_ = 0;  // rounding error of the force, carried along [N]
+  scalar B3_K3_error_ = 0;  // rounding error of the force, carried along [N]
+  scalar B2_K2_error_ = 0;  // rounding error of the force, carried along [N]
+  scalar B1_K1_error_ = 0;  // rounding error of the force, carried along [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]

@@ -5,7 +5,7 @@
 // valid: displacement 0 to 0.003 m, rate 0 to 0.000206 m/s, frequency 0.00884 to 1.6 Hz
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 0 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': no damper acts
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -17,11 +17,11 @@
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 8.9e-16 of the
 //   sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 0 additions, 1 multiplication, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 2 numbers kept between
 //   samples
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
 // d185ee5a945457a1734b6cc42e48f068612532219d4c621ea9292a1baf5b8ba7. It belongs to whoever had it
@@ -38,7 +38,7 @@ class silicone_phantom {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -53,7 +53,8 @@ class silicone_phantom {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
@@ -72,7 +73,7 @@ class silicone_phantom {
     return {damping, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -80,7 +81,7 @@ class silicone_phantom {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // m = f − b u̇
     const scalar force = static_stiffness * position;
@@ -97,7 +98,7 @@ class silicone_phantom {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // V = ½ k0 u² + Σ F_i²/(2 k_i)
     const scalar stored = half_static_stiffness * last_position_ * last_position_;

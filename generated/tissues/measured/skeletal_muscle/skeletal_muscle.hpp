@@ -8,7 +8,7 @@
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 4.005 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -19,12 +19,12 @@
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 8.3e-13 of the
 //   sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 1 guard against subnormal numbers; 4 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 8.3e-13 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -42,7 +42,7 @@ class skeletal_muscle {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -57,7 +57,8 @@ class skeletal_muscle {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     B1_K1_force_ = 0;
@@ -82,7 +83,7 @@ class skeletal_muscle {
     return {damping, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -92,7 +93,7 @@ class skeletal_muscle {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
@@ -114,7 +115,7 @@ class skeletal_muscle {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar B1_K1_energy = B1_K1_energy_weight * B1_K1_force_ * B1_K1_force_;
@@ -125,9 +126,9 @@ class skeletal_muscle {
 
  private:
   static constexpr scalar damping = 4.005;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 3.146;  // k0 [N/m]
-  static constexpr scalar step_stiffness = 1.6156740193759802;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar step_stiffness = 1.6156740193759802;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -4.005;  // b∞ − b [N·s/m]
   static constexpr scalar B1_K1_gain = 1.615022233474136;  // a c [N/m]
   static constexpr scalar B1_K1_decay = 0.9995965857629523;  // a = e^{−λh} [1]

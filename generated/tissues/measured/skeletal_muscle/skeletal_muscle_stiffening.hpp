@@ -12,8 +12,8 @@
 // brake: makes b = 5.3572 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series,
 //   B1 turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 %
 //   of the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven, as a network with a static
-//   curve always is)
+// states: what the law remembers follows the measured position (position driven, as a network with a static curve
+//   always is)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
 // passivity: not certified: a static curve's steepness changes while the tool moves, and no device states how fast
@@ -21,12 +21,12 @@
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 13 additions, 12 multiplications, 0 guards against subnormal numbers
 // cost of update(): 5 additions, 4 multiplications, 2 guards against subnormal numbers; 7 numbers kept between
 //   samples
 // rounding: in delta form the force of a mode is off by at most 9.9e-13 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -44,7 +44,7 @@ class skeletal_muscle_stiffening {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -59,7 +59,8 @@ class skeletal_muscle_stiffening {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     if (!dashpot::all_finite(position)) position = 0;
     // |x|
@@ -68,11 +69,11 @@ class skeletal_muscle_stiffening {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
@@ -96,16 +97,16 @@ class skeletal_muscle_stiffening {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
     const scalar mapped = position > 0 ? mapped_size : centre - mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar tangent = map_b[static_cast<int>(cell)] + within * (map_bend + map_bend + map_cubic);
     // ẇ = w′ u̇
     const scalar mapped_velocity = tangent * velocity;
@@ -129,7 +130,7 @@ class skeletal_muscle_stiffening {
     return {brake_command, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -146,7 +147,7 @@ class skeletal_muscle_stiffening {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // |x|
     const scalar distance = position > 0 ? position : centre - position;
@@ -154,16 +155,16 @@ class skeletal_muscle_stiffening {
     const scalar cell = in_cells > 0 ? in_cells : centre;
     // d = |x| − x_i
     const scalar within = distance - cell_begins[static_cast<int>(cell)];
-    // e d
+    // map_e d
     const scalar map_cubic = map_e[static_cast<int>(cell)] * within;
-    // s = c + e d
+    // map_c + map_e d
     const scalar map_bend = map_c[static_cast<int>(cell)] + map_cubic;
-    // |w| = a + d (b + d s)
+    // |w| = map_a + d (map_b + d map_bend)
     const scalar mapped_size = map_a[static_cast<int>(cell)] + within * (map_b[static_cast<int>(cell)] +
         within * map_bend);
     // w with the sign of x
     const scalar mapped = position > 0 ? mapped_size : centre - mapped_size;
-    // w′ = b + d (2 s + e d)
+    // w′ = map_b + d (2 map_bend + map_e d)
     const scalar tangent = map_b[static_cast<int>(cell)] + within * (map_bend + map_bend + map_cubic);
     // ẇ = w′ u̇
     const scalar mapped_velocity = tangent * velocity;
@@ -201,7 +202,7 @@ class skeletal_muscle_stiffening {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar B2_K2_energy = B2_K2_energy_weight * B2_K2_force_ * B2_K2_force_;  // B2, K2
@@ -212,9 +213,9 @@ class skeletal_muscle_stiffening {
   }
 
  private:
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 1.602;  // k0 [N/m]
-  static constexpr scalar step_stiffness = 2.1081969486151397;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar step_stiffness = 2.1081969486151397;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -5.3572;  // b∞ − b [N·s/m]
   static constexpr scalar B2_K2_gain = 0.5694042226915098;  // a c [N/m]
   static constexpr scalar B1_K1_gain = 1.5302181406997355;  // a c [N/m]
@@ -223,16 +224,16 @@ class skeletal_muscle_stiffening {
   static constexpr scalar half_static_stiffness = 0.801;  // ½ k0 [N/m]
   static constexpr scalar B2_K2_energy_weight = 0.8781600367786451;  // 1/(2 k a²) [m/N]
   static constexpr scalar B1_K1_energy_weight = 0.3276586168470807;  // 1/(2 k a²) [m/N]
-  static constexpr scalar centre = 0.0;  // of the map, which is odd [m]
-  static constexpr scalar cells_per_length = 14159.292035398232;  // of the map [1/m]
-  static constexpr scalar last_cell = 32.0;  // of the map [1]
-  // of each cell [m]
+  static constexpr scalar centre = 0.0;  // centre of the map [m]
+  static constexpr scalar cells_per_length = 14159.292035398232;  // cells of the map per length [1/m]
+  static constexpr scalar last_cell = 32.0;  // number of the map's last cell [1]
+  // where each cell begins [m]
   static constexpr scalar cell_begins[33] = {0.0, 7.0625e-05, 0.00014125, 0.000211875, 0.0002825, 0.000353125,
       0.00042375, 0.000494375, 0.000565, 0.0006356249999999999, 0.00070625, 0.000776875, 0.0008475,
       0.0009181249999999999, 0.00098875, 0.001059375, 0.00113, 0.0012006249999999999, 0.0012712499999999998,
       0.001341875, 0.0014125, 0.0014831249999999999, 0.00155375, 0.001624375, 0.001695, 0.0017656249999999998,
       0.0018362499999999998, 0.001906875, 0.0019775, 0.002048125, 0.00211875, 0.002189375, 0.00226};
-  // e of each cell [1/m²]
+  // coefficient of d³ in each cell [1/m²]
   static constexpr scalar map_e[33] = {30698.536670771726, 32482.81137026927, 34367.861704600466,
       36358.98223901958, 38461.731070654874, 40681.944483064544, 43025.752650307644, 45499.59645528738,
       48110.245486978776, 50864.8172806821, 53770.79786470459, 56836.06367593807, 60068.904905754775,
@@ -240,7 +241,7 @@ class skeletal_muscle_stiffening {
       83508.01121865932, 88186.37970838448, 93116.86097238878, 98312.78497215554, 103788.2206331131,
       109558.01889446055, 115637.8579532191, 122044.29078902859, 128794.79506407528, 135907.8255013902,
       143402.8688545505, 151300.50159249804, 159622.45043468842, 168391.65588402914, 0.0};
-  // c of each cell [1/m]
+  // coefficient of d² in each cell [1/m]
   static constexpr scalar map_c[33] = {119.1716785006216, 125.67454376835073, 132.55537925156975,
       139.83553316456218, 147.5374753077544, 155.68485288916378, 164.3025494498669, 173.41674711585316,
       183.05499241235486, 193.24626589043822, 204.02105582923411, 215.41143629062154, 227.45114981641422,
@@ -266,7 +267,7 @@ class skeletal_muscle_stiffening {
       0.9878788679189867, 1.0336855503585318, 1.0820609211749292, 1.1331487381587568, 1.1871005021986778,
       1.2440758671856427, 1.3042430726722036, 1.3677794006079813, 1.4348716575392648, 1.505716683730378,
       1.5805218907370582, 1.6595058290379283, 1.7428987874095325, 1.8309434258136545, 1.9238954436531313};
-  static constexpr scalar mapped_damping = 5.3572;  // b behind the map [N·s/m]
+  static constexpr scalar mapped_damping = 5.3572;  // b_w, b behind the map [N·s/m]
 
   scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
   scalar B2_K2_force_ = 0;  // force of the mode, decayed to the next sample [N]

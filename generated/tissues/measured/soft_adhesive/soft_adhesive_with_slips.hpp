@@ -5,11 +5,11 @@
 // valid: displacement 0 to 0.0013 m, rate 0 to 1.43e-05 m/s, frequency 0.00012 to 0.333 Hz
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
-// brake: makes b = 441280 N·s/m of damping, behind slips also what follows, and the motor the rest of the force;
-//   by the rule 'faithful': without a device 'faithful' is the paper's rule: in series, B1 turns 100 % of the
-//   energy into heat at low frequency, and the brake follows it
+// brake: makes b = 441280 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of
+//   the force; by the rule 'faithful': without a device 'faithful' is the paper's rule: in series, B1 turns 100 %
+//   of the energy into heat at low frequency, and the brake follows it
 // behind Y1: velocity-free, the only damping of what slides is at the tool; b = 0 N·s/m stuck, 0 sliding
-// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+// states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
@@ -17,15 +17,15 @@
 //   419496 N·s/m, most at 0.791694 Hz, at least 441280 N·s/m is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
-//   rounding adds at most 1.8e-15 of the sum of the force's terms
+// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
+//   energy; rounding adds at most 1.8e-15 of the sum of the force's terms
 // device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
 // cost of output(): 6 additions, 4 multiplications, 0 guards against subnormal numbers
 // cost of update(): 5 additions, 2 multiplications, 3 guards against subnormal numbers; 7 numbers kept between
 //   samples
 // rounding: in compensated form the force of a mode is off by at most 6.7e-16 of its peak
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+// words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
 //   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
@@ -43,7 +43,7 @@ class soft_adhesive_with_slips {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  // The part of the brake's command that was added for passivity: it is felt in addition to the network.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -58,7 +58,8 @@ class soft_adhesive_with_slips {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
+  // infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     B1_K1_force_ = 0;
@@ -75,9 +76,9 @@ class soft_adhesive_with_slips {
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
-    // t = stuck trial
+    // trial = force of the slip if it held
     const scalar Y1_trial = Y1_trial_by_change * position_change + S1_spring_force_;
-    // s = clamp(t, ±Y)
+    // slip = clamp(trial, ±Y)
     const scalar Y1_slip = dashpot::clamp_to(Y1_yield, Y1_trial);
     // m = f − b u̇
     const scalar force = B1_K1_force_ + static_stiffness * position + (step_stiffness * position_change +
@@ -91,7 +92,7 @@ class soft_adhesive_with_slips {
     return {damping, force};
   }
 
-  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  // Advances the states to the next sample. Call it once after each output(), when the command has been sent.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
@@ -109,13 +110,13 @@ class soft_adhesive_with_slips {
     last_position_ = sampled_position_;
   }
 
-  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  // output() and then update() in one function, with the same results to the last bit.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
-    // t = stuck trial
+    // trial = force of the slip if it held
     const scalar Y1_trial = Y1_trial_by_change * position_change + S1_spring_force_;
-    // s = clamp(t, ±Y)
+    // slip = clamp(trial, ±Y)
     const scalar Y1_slip = dashpot::clamp_to(Y1_yield, Y1_trial);
     // m = f − b u̇
     const scalar force = B1_K1_force_ + static_stiffness * position + (step_stiffness * position_change +
@@ -143,7 +144,7 @@ class soft_adhesive_with_slips {
   // No parameter of this network can be set while it runs.
   unsigned set(const parameters&) noexcept { return 0; }
 
-  // In the springs after the last update() [J].
+  // Energy in the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
     const scalar B1_K1_energy = B1_K1_energy_weight * B1_K1_force_ * B1_K1_force_;
@@ -156,11 +157,11 @@ class soft_adhesive_with_slips {
 
  private:
   static constexpr scalar damping = 441280.0;  // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar threshold = 6.223015277861142e-61;  // smaller forces become zero: no state is subnormal
   static constexpr scalar static_stiffness = 1818.0;  // k0 [N/m]
-  static constexpr scalar step_stiffness = 7333.93589124845;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar step_stiffness = 7333.93589124845;  // Σ c_i, stiffness of all modes within a sample [N/m]
   static constexpr scalar velocity_gain = -419500.0;  // b∞ − b [N·s/m]
-  static constexpr scalar Y1_trial_by_change = 2723.0;  // for a change of position [N/m]
+  static constexpr scalar Y1_trial_by_change = 2723.0;  // factor of the change of position [N/m]
   static constexpr scalar Y1_yield = 1.272;  // Y [N]
   static constexpr scalar B1_K1_gain = 7333.807675239733;  // a c [N/m]
   static constexpr scalar B1_K1_loss = 1.748256469904279e-05;  // α = 1 − a [1]
@@ -169,7 +170,7 @@ class soft_adhesive_with_slips {
   static constexpr scalar S1_compliance = 0.0001836210062431142;  // 1/(2 k) [m/N]
 
   scalar B1_K1_force_ = 0;  // force of the mode, decayed to the next sample [N]
-  scalar B1_K1_error_ = 0;  // what rounding kept from the force [N]
+  scalar B1_K1_error_ = 0;  // rounding error of the force, carried along [N]
   scalar S1_spring_force_ = 0;  // force of the spring [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_Y1_slip_ = 0;  // the slip's force, at this sample [N]

@@ -164,7 +164,7 @@ class Rate(SimulateTest):
         told = refusal(micro[:200] + micro[201:])
         self.assertTrue(told.startswith("motion.csv:202:1: error: row follows after 0.000667 s; a uniform period of "
                                         "0.000333 s"), told)
-        self.assertIn("times whose last digit, 1e-06 s here, is at most 0.1 of them", told)
+        self.assertIn("times if their last digit, 1e-06 s here, is at most 0.1 of a period", told)
         refusal([time + 4 * (n == 150) for n, time in enumerate(micro)])
         self.refuses(table([(f"{(time + 4 * (n == 150)) / 1e6:.5e}", 0) for n, time in enumerate(micro)]),
                      "csv-not-uniform")

@@ -3,8 +3,8 @@
 //
 //     F(s) = D(s) U(s) + Σ t_j(s) f_j(s),        |F| ≤ (k0 + Σ k_i) |way of the tool| + Σ Y_j ∫|t_j|,
 //
-// where D = k0 + Σ k_i s/(s + λ_i) is what springs and dampers make that reach ground round the slips, and t_j is what
-// slip j moves by, nothing slipping against any friction, for a unit of the tool's displacement (reciprocity). Of
+// where D = k0 + Σ k_i s/(s + λ_i) is the stiffness of springs and dampers that reach ground round the slips, and t_j
+// is the displacement across slip j for a unit of the tool's displacement, if no slip had friction (reciprocity). With
 // springs alone t_j is a number between 0 and 1. The dampers' own force b∞ u̇ is not counted.
 #pragma once
 

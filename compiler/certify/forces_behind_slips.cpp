@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,11 +26,6 @@ std::vector<std::size_t> elements_behind_slips(const Network& network) {
     if (std::ranges::any_of(part.elements, [&](std::size_t i) { return is_slip(network.elements[i].law); }))
       unite(elements, part.elements);
   return elements;
-}
-
-bool follows_tunable(const Network& network, std::size_t index) {
-  const std::optional<std::size_t>& parameter = network.elements[index].parameter;
-  return parameter && network.parameters[*parameter].tunable;
 }
 
 // The linear rest with forces in the place of slips. Nodes that slips alone hold have no place of their own: of such a
@@ -84,17 +78,10 @@ class RestBesideSlips {
         const Element& slip = network_.elements[index];
         if (sets.find(slip.a) == sets.find(slip.b) || (!floats(slip.a) && !floats(slip.b))) continue;
         sets.unite(slip.a, slip.b);
-        unite_rigidly(slip.a, slip.b);
+        rigid_.unite_by_least(slip.a, slip.b);
         goes_on = true;
       }
     }
-  }
-
-  // Tool and ground stay what they are.
-  void unite_rigidly(NodeIndex a, NodeIndex b) {
-    const NodeIndex first = place_of(a), second = place_of(b);
-    if (first == tool || first == ground) rigid_.unite(second, first);
-    else rigid_.unite(first, second);
   }
 
   template <class Joins>
@@ -183,7 +170,7 @@ class RestBesideSlips {
 
   Network network_;
   std::vector<std::size_t> linear_, slips_;
-  DisjointSets rigid_{network_.nodes.size()};
+  DisjointSets rigid_{network_.nodes.size()};  // by the least, so that tool and ground stay what they are
   std::map<NodeIndex, Eigen::Index> row_;
 };
 
@@ -193,7 +180,7 @@ ForcesBehindSlips forces_behind_slips(const Network& network) {
   const std::vector<std::size_t> elements = elements_behind_slips(network);
   const RestBesideSlips rest(network, elements);
   const bool may_change =
-      std::ranges::any_of(elements, [&](std::size_t index) { return follows_tunable(network, index); });
+      std::ranges::any_of(elements, [&](std::size_t i) { return network.tunable_of(network.elements[i]) != nullptr; });
   return may_change ? ForcesBehindSlips{rest.reaches_ground(), unbounded_force, unbounded_force} : rest.result();
 }
 

@@ -154,9 +154,8 @@ class Verification {
 void recompute_map(const HeaderConstants& header, const Compilation& compiled, Diagnostics& diagnostics) {
   const MotionMap& map = *compiled.network.map;
   const Network& network = compiled.network;
-  const Network linear = network.static_curve->is_instantaneous && has_slips(network)
-                             ? with_stuck_slips(network)
-                             : linear_part(network, compiled.form);
+  const Network linear =
+      network.static_curve->is_instantaneous ? with_stuck_slips(network) : linear_part(network, compiled.form);
   const ReferenceMap exact = reference_map(network, reference_form(linear), map.cubics());
   for (const auto& [name, expected] :
        {std::pair("cell_begins", &exact.begins), std::pair("map_a", &exact.a), std::pair("map_b", &exact.b),

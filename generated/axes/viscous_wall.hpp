@@ -60,8 +60,8 @@ class viscous_wall {
 
   struct parameters {};
 
-  // Starts at rest with the joints at `position` [rad]: only the springs that hold a force at rest are loaded. A
-  // NaN or infinite position counts as 0.
+  // Starts at rest with the joints at `position` [rad]: only the springs that hold a force at rest are
+  // loaded. A NaN or infinite position counts as 0.
   void reset(const scalar (&position)[axes] = {}) noexcept {
     const scalar q1 = dashpot::all_finite(position[0]) ? position[0] : 0;
     const scalar q2 = dashpot::all_finite(position[1]) ? position[1] : 0;
@@ -112,8 +112,9 @@ class viscous_wall {
     sampled_ = false;
   }
 
-  // The command for this sample: the joints' positions [rad] and estimates of their velocities [rad/s].
-  // After a non-finite input the states stay as they were, the brakes get their last command and the motors none.
+  // The command for this sample: the joints' positions [rad] and estimates of their velocities
+  // [rad/s]. After a non-finite input the states stay as they were, the brakes get their last command and
+  // the motors none.
   dashpot::commands<scalar, axes, brakes> output(const scalar (&position)[axes],
                                                  const scalar (&velocity)[axes]) noexcept {
     const scalar q1 = position[0], q2 = position[1], v1 = velocity[0], v2 = velocity[1];

@@ -55,8 +55,8 @@ class ligament {
 
   struct parameters {};
 
-  // Starts at rest at `position` [rad]: only the springs that hold a force at rest are loaded, from 0. A NaN or
-  // infinite position counts as 0.
+  // Starts at rest at `position` [rad]: only the springs that hold a force at rest are loaded, from 0. A
+  // NaN or infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     if (!dashpot::all_finite(position)) position = 0;
     // |x|
@@ -82,8 +82,8 @@ class ligament {
     sampled_ = false;
   }
 
-  // The command for this sample: port position [rad] and an estimate of its velocity [rad/s]. After a
-  // non-finite input the states stay as they were and the motor's force is 0.
+  // The command for this sample: port position [rad] and an estimate of its velocity [rad/s].
+  // After a non-finite input the states stay as they were and the motor's force is 0.
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // |x|
     const scalar distance = position > 0 ? position : centre - position;

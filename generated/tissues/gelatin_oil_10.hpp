@@ -53,16 +53,16 @@ class gelatin_oil_10 {
 
   struct parameters {};
 
-  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
-  // infinite position counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A
+  // NaN or infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_ = false;
   }
 
-  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
-  // non-finite input the states stay as they were and the motor's force is 0.
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s].
+  // After a non-finite input the states stay as they were and the motor's force is 0.
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // m = f − b u̇
     const scalar force = static_stiffness * position;

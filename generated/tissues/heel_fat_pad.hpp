@@ -57,8 +57,8 @@ class heel_fat_pad {
 
   struct parameters {};
 
-  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
-  // infinite position counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A
+  // NaN or infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     relaxed_force_ = 0;
@@ -73,8 +73,8 @@ class heel_fat_pad {
     sampled_ = false;
   }
 
-  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
-  // non-finite input the states stay as they were and the motor's force is 0.
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s].
+  // After a non-finite input the states stay as they were and the motor's force is 0.
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;

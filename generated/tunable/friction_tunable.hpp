@@ -68,8 +68,8 @@ class friction_tunable {
     scalar drag = 12.0;  // 0 to 40 [N s/m]
   };
 
-  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
-  // infinite position counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A
+  // NaN or infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     spring_2_elongation_ = 0;
     spring_2_held_ = 0;
@@ -84,8 +84,8 @@ class friction_tunable {
     sampled_ = false;
   }
 
-  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
-  // non-finite input the states stay as they were and the motor's force is 0.
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s].
+  // After a non-finite input the states stay as they were and the motor's force is 0.
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;

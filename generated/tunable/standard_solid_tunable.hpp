@@ -62,8 +62,8 @@ class standard_solid_tunable {
     scalar K1 = 200.0;  // 50 to 800 [N/m]
   };
 
-  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
-  // infinite position counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A
+  // NaN or infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     spring_1_offset_ = 0;
     tank_ = 0;
@@ -89,8 +89,8 @@ class standard_solid_tunable {
     sampled_ = false;
   }
 
-  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
-  // non-finite input the states stay as they were and the motor's force is 0.
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s].
+  // After a non-finite input the states stay as they were and the motor's force is 0.
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;

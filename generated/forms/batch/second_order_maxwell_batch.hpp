@@ -43,8 +43,8 @@ class second_order_maxwell_batch {
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
   static constexpr scalar damping = 11.0;  // b, the brake's part, of every point
 
-  // How many scalars are kept for each point, and how many points make a block. In a block the scalars lie state by state,
-  // so that memory is read and written in one stream.
+  // How many scalars are kept for each point, and how many points make a block. In a block the scalars lie state by
+  // state, so that memory is read and written in one stream.
   static constexpr int states = 3;
   static constexpr int block = 64 / static_cast<int>(sizeof(scalar));
 
@@ -69,8 +69,8 @@ class second_order_maxwell_batch {
     put(state, 2, 0.0);
   }
 
-  // The commands for this sample of all points: positions [m] and velocities [m/s] to forces. Changes no
-  // state: pass the same samples to update().
+  // The commands for this sample of all points: positions [m] and velocities [m/s] to
+  // forces. Changes no state: pass the same samples to update().
   void output(const scalar* positions, const scalar* velocities, scalar* forces) const noexcept {
     run<true, false>(positions, velocities, forces);
   }

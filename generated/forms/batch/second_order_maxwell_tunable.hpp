@@ -65,8 +65,8 @@ class second_order_maxwell_tunable {
     scalar B2 = 6.0;  // 0.5 to 20 [N s/m]
   };
 
-  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
-  // infinite position counts as 0.
+  // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A
+  // NaN or infinite position counts as 0.
   void reset(scalar position = 0) noexcept {
     B1_spring_2_elongation_ = 0;
     damper_3_K2_elongation_ = 0;
@@ -85,8 +85,8 @@ class second_order_maxwell_tunable {
     sampled_ = false;
   }
 
-  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
-  // non-finite input the states stay as they were and the motor's force is 0.
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s].
+  // After a non-finite input the states stay as they were and the motor's force is 0.
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;

@@ -55,8 +55,8 @@ class second_order_maxwell_tunable_batch {
     scalar B2 = 6.0;  // 0.5 to 20 [N s/m]
   };
 
-  // How many scalars are kept for each point, and how many points make a block. In a block the scalars lie state by state,
-  // so that memory is read and written in one stream.
+  // How many scalars are kept for each point, and how many points make a block. In a block the scalars lie state by
+  // state, so that memory is read and written in one stream.
   static constexpr int states = 18;
   static constexpr int block = 64 / static_cast<int>(sizeof(scalar));
 
@@ -230,8 +230,8 @@ class second_order_maxwell_tunable_batch {
     return clamped;
   }
 
-  // The commands for this sample of all points: positions [m] and velocities [m/s] to forces and dampings. Changes no
-  // state: pass the same samples to update().
+  // The commands for this sample of all points: positions [m] and velocities [m/s] to
+  // forces and dampings. Changes no state: pass the same samples to update().
   void output(const scalar* positions, const scalar* velocities, scalar* dampings, scalar* forces) const noexcept {
     run<true, false>(positions, velocities, dampings, forces);
   }

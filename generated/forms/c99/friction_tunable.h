@@ -218,8 +218,8 @@ static inline double friction_tunable_parameter_max(int i) {
   return 0;
 }
 
-// Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
-// infinite position counts as 0. Parameters stay as they are.
+// Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A
+// NaN or infinite position counts as 0. Parameters stay as they are.
 static inline void friction_tunable_reset(friction_tunable *self, double position) {
   const double zero = 0.0;  // nothing [1]
   self->held_force = 0.0;
@@ -253,8 +253,8 @@ static inline void friction_tunable_init(friction_tunable *self) {
   self->sampled = 0;
 }
 
-// The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
-// non-finite input the states stay as they were and the motor's force is 0.
+// The command for this sample: port position [m] and an estimate of its velocity [m/s].
+// After a non-finite input the states stay as they were and the motor's force is 0.
 static inline dashpot_command friction_tunable_output(friction_tunable *self, double position, double velocity) {
   dashpot_command command;
   // Δu = u − u₋
@@ -322,10 +322,10 @@ static inline double friction_tunable_parameter(const friction_tunable *self, in
   return 0;
 }
 
-// Sets all parameters, in their order. Call it right after the step of a sample, and take the command from the output of
-// that sample without another update: the motor then holds the old force no longer, and a spring that changes injects no
-// energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and has not
-// changed. An update that is still due is done first, with the old parameters.
+// Sets all parameters, in their order. Call it right after the step of a sample, and take the command from the output
+// of that sample without another update: the motor then holds the old force no longer, and a spring that changes
+// injects no energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and
+// has not changed. An update that is still due is done first, with the old parameters.
 static inline unsigned friction_tunable_set_values(friction_tunable *self, const double *wanted) {
   friction_tunable_update(self);
   unsigned clamped = 0u;

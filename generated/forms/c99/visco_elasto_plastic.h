@@ -128,8 +128,8 @@ static inline double visco_elasto_plastic_parameter_max(int i) {
   return 0;
 }
 
-// Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A NaN or
-// infinite position counts as 0. Parameters stay as they are.
+// Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A
+// NaN or infinite position counts as 0. Parameters stay as they are.
 static inline void visco_elasto_plastic_reset(visco_elasto_plastic *self, double position) {
   self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
   self->K_spring_force = 0.0;
@@ -146,8 +146,8 @@ static inline void visco_elasto_plastic_init(visco_elasto_plastic *self) {
   self->sampled = 0;
 }
 
-// The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
-// non-finite input the states stay as they were and the motor's force is 0.
+// The command for this sample: port position [m] and an estimate of its velocity [m/s].
+// After a non-finite input the states stay as they were and the motor's force is 0.
 static inline dashpot_command visco_elasto_plastic_output(visco_elasto_plastic *self, double position, double velocity) {
   dashpot_command command;
   const double damping = 3.3;  // b, the brake's part
@@ -220,10 +220,10 @@ static inline double visco_elasto_plastic_parameter(const visco_elasto_plastic *
   return 0;
 }
 
-// Sets all parameters, in their order. Call it right after the step of a sample, and take the command from the output of
-// that sample without another update: the motor then holds the old force no longer, and a spring that changes injects no
-// energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and has not
-// changed. An update that is still due is done first, with the old parameters.
+// Sets all parameters, in their order. Call it right after the step of a sample, and take the command from the output
+// of that sample without another update: the motor then holds the old force no longer, and a spring that changes
+// injects no energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and
+// has not changed. An update that is still due is done first, with the old parameters.
 static inline unsigned visco_elasto_plastic_set_values(visco_elasto_plastic *self, const double *wanted) {
   (void)self;
   (void)wanted;

@@ -158,8 +158,8 @@ static inline double kelvin_field_added_damping(int brake) {
   return ((brake >= 0) && (brake < kelvin_field_brakes)) ? added[brake] : 0;
 }
 
-// Starts at rest with the joints at `position` [rad], one entry a joint: only the springs that hold a force at
-// rest are loaded. A NaN or infinite position counts as 0.
+// Starts at rest with the joints at `position` [rad], one entry a joint: only the springs that hold a
+// force at rest are loaded. A NaN or infinite position counts as 0.
 static inline void kelvin_field_reset(kelvin_field *self, const double *position) {
   const double half = 0.5;  // 1/2 [1]
   const double base = 0.025;  // distance of the motor axes [m]
@@ -252,8 +252,9 @@ static inline void kelvin_field_init(kelvin_field *self) {
   self->sampled = 0;
 }
 
-// The command for this sample: the joints' positions [rad] and estimates of their velocities [rad/s].
-// After a non-finite input the states stay as they were, the brakes get their last command and the motors none.
+// The command for this sample: the joints' positions [rad] and estimates of their velocities
+// [rad/s]. After a non-finite input the states stay as they were, the brakes get their last command and the
+// motors none.
 static inline kelvin_field_commands kelvin_field_output(kelvin_field *self, const double *position, const double *velocity) {
   kelvin_field_commands command;
   const double across_static_stiffness = 100.0;  // k0 [N/m]

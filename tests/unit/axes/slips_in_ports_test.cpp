@@ -12,7 +12,8 @@ namespace {
 
 AxesDevice serial_arm(int delay) {
   const SourceFile file("arm.json", fmt::format(R"({{ "dashpot_device": 1, "axes": 2, "name": "arm",
-      "kinematics": {{ "kind": "serial", "links": [0.063, 0.075], "workspace": {{ "x": [-0.03, 0.03], "y": [0.07, 0.11] }} }},
+      "kinematics": {{ "kind": "serial", "links": [0.063, 0.075],
+        "workspace": {{ "x": [-0.03, 0.03], "y": [0.07, 0.11] }} }},
       "loop": {{ "rate": 1000, "delay_samples": {} }}, "encoders": {{ "max_speed": 0.01 }},
       "velocity": {{ "estimator": "backward_difference", "window": 5 }},
       "brakes": [ {{ "along": [1, 0], "kind": "eddy_current", "max_damping": 100 }},

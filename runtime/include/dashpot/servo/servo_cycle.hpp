@@ -7,6 +7,7 @@
 #include <dashpot/device.hpp>
 #include <dashpot/servo/device_check.hpp>
 #include <dashpot/servo/period_grid.hpp>
+#include <dashpot/servo/safety_monitor.hpp>
 #include <dashpot/servo/servo_control.hpp>
 #include <dashpot/servo/servo_state.hpp>
 #include <dashpot/servo/servo_summary.hpp>

@@ -1,8 +1,10 @@
 #include "certify/forces_behind_slips.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -51,9 +53,7 @@ class RestBesideSlips {
   ForcesBehindSlips result() const {
     ForcesBehindSlips forces{reaches_ground()};
     const LinearForm form = linear_form(network_, linear_, tool, ground);
-    Real stiffness = form.static_stiffness;
-    for (const Mode& mode : form.modes) stiffness += mode.stiffness;
-    if (forces.reach_round) forces.stiffness = to_double(stiffness) * above_rounding;
+    if (forces.reach_round) forces.stiffness = to_double(glass_stiffness(form)) * above_rounding;
     const std::vector<Real> shares = shares_of_slips();
     for (std::size_t i = 0; i < slips_.size(); ++i)
       forces.yields += yield_force_of(network_.elements[slips_[i]].law) * to_double(shares[i]);
@@ -101,12 +101,7 @@ class RestBesideSlips {
   // Groups of inner nodes that elements of one kind tie together but to nothing else.
   template <class Joins>
   Eigen::Index floating_groups(Joins joins) const {
-    const DisjointSets sets = joined(joins);
-    std::vector<std::size_t> groups;
-    for (const auto& [node, row] : row_)
-      if (sets.find(node) != sets.find(tool) && sets.find(node) != sets.find(ground)) groups.push_back(sets.find(node));
-    std::sort(groups.begin(), groups.end());
-    return std::unique(groups.begin(), groups.end()) - groups.begin();
+    return joined(joins).count_apart(std::views::keys(row_), std::array{tool, ground});
   }
 
   void stamp(const Element& element, RealMatrix& inner, const auto& value, Eigen::Index column,

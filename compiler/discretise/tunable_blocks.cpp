@@ -12,8 +12,7 @@ namespace dashpot::compiler {
 namespace {
 
 bool is_tunable(const Network& network, std::size_t element) {
-  const std::optional<std::size_t>& parameter = network.elements[element].parameter;
-  return parameter && network.parameters[*parameter].tunable;
+  return network.tunable_of(network.elements[element]) != nullptr;
 }
 
 std::optional<Tree> restricted(const Tree& tree, const std::vector<std::size_t>& elements) {

@@ -20,16 +20,10 @@ namespace {
 
 const Real offset_time("0.1");  // [s], in which an offset shrinks by 63 % if the tank has the energy
 
-const Parameter* tunable_of(const Network& network, const Element& element) {
-  if (!element.parameter) return nullptr;
-  const Parameter& parameter = network.parameters[*element.parameter];
-  return parameter.tunable ? &parameter : nullptr;
-}
-
 // The network with every parameter at its largest, so that no element is without effect.
 Network at_largest(Network network) {
   for (Element& element : network.elements)
-    if (const Parameter* tunable = tunable_of(network, element))
+    if (const Parameter* tunable = network.tunable_of(element))
       element.law = with_value(element.law, element.share * tunable->max);
   return network;
 }
@@ -112,7 +106,7 @@ class TablesBuilder {
 
   void add_tunable(const Parameter& parameter) {
     const auto user = std::find_if(network_.elements.begin(), network_.elements.end(),
-                                   [&](const Element& element) { return tunable_of(network_, element) == &parameter; });
+                                   [&](const Element& element) { return network_.tunable_of(element) == &parameter; });
     const std::string unit = user == network_.elements.end() ? "" : unit_of(user->law, network_.port_motion);
     tables_.tunables.push_back(
         {parameter.name,

@@ -14,12 +14,6 @@ namespace {
 
 const Real equal_rates{"1e-12"};
 
-Real glass_stiffness(const LinearForm& form) {
-  Real sum = form.static_stiffness;
-  for (const Mode& mode : form.modes) sum += mode.stiffness;
-  return sum;
-}
-
 // |k s/(s + λ)| weighs most against the rest near ω = λ: below, the rest falls no faster; above, it does not fall.
 // No mode adds more than twice its stiffness to that weight, so that hardly any has to be weighed against all others.
 bool is_negligible(const Mode& mode, const LinearForm& form, const Real& glass_stiffness) {
@@ -91,6 +85,11 @@ std::complex<double> viscous_impedance(const LinearForm& form, double angular_fr
   for (const Mode& mode : form.modes)
     z += to_double(mode.stiffness) / std::complex<double>(to_double(mode.relaxation_rate), angular_frequency);
   return z;
+}
+
+Real glass_stiffness(const LinearForm& form) {
+  return std::accumulate(form.modes.begin(), form.modes.end(), form.static_stiffness,
+                         [](const Real& sum, const Mode& mode) -> Real { return sum + mode.stiffness; });
 }
 
 Real zero_frequency_damping(const LinearForm& form) {

@@ -51,6 +51,9 @@ ComplexReal dynamic_stiffness(const LinearForm& form, const Real& angular_freque
 // Z_d(jω) = (D(jω) − k0)/(jω) = b∞ + Σ k_i/(jω + λ_i) [N·s/m]: the impedance with the static spring taken out.
 std::complex<double> viscous_impedance(const LinearForm& form, double angular_frequency);
 
+// k0 + Σ k_i [N/m]: the stiffness in a step, in which no damper moves but those of b∞.
+Real glass_stiffness(const LinearForm& form);
+
 // Z_d(0) = b∞ + Σ k_i/λ_i [N·s/m]
 Real zero_frequency_damping(const LinearForm& form);
 

@@ -1,6 +1,7 @@
 #include "linear/modal_reduction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "linear/pencil.hpp"
@@ -66,12 +67,8 @@ DisjointSets tied_by(const Part& part, const Network& network, ValueOf value_of)
 // Clusters of internal nodes that elements of one kind tie together but not to port or held node: each is one
 // direction in which the matrix of that kind is singular.
 template <class ValueOf>
-std::size_t floating_clusters(const Part& part, const Network& network, ValueOf value_of) {
-  DisjointSets sets = tied_by(part, network, value_of);
-  sets.unite(part.port, part.held);
-  std::size_t clusters = 0;
-  for (NodeIndex node : part.internal) clusters += sets.find(node) == node && sets.find(part.port) != node ? 1 : 0;
-  return clusters;
+Eigen::Index floating_clusters(const Part& part, const Network& network, ValueOf value_of) {
+  return tied_by(part, network, value_of).count_apart(part.internal, std::array{part.port, part.held});
 }
 
 // Whether elements of one kind alone lead from the port to the held node.
@@ -95,8 +92,8 @@ void add_modes(LinearForm& form, const Part& part, const Network& network, const
   Matrix drives(equations.stiffness.rows(), 2);
   drives << equations.port_stiffness, equations.port_damping;
   const Pencil pencil = solve_pencil(equations.stiffness, equations.damping, drives);
-  const auto held_by_dampers = static_cast<Eigen::Index>(floating_clusters(part, network, stiffness_of));
-  const auto held_by_springs = static_cast<Eigen::Index>(floating_clusters(part, network, damping_of));
+  const auto held_by_dampers = floating_clusters(part, network, stiffness_of);
+  const auto held_by_springs = floating_clusters(part, network, damping_of);
   const Vector p = pencil.drives.col(0), q = pencil.drives.col(1);
   const Eigen::Index size = p.size();
   for (Eigen::Index i = 0; i < size; ++i) {

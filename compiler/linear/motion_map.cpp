@@ -138,9 +138,7 @@ double reach_of(const Network& network) {
 
 std::optional<Real> stiffness_of(const Network& network, const LinearForm& form, Diagnostics& diagnostics) {
   if (network.static_curve->is_instantaneous) {
-    const LinearForm at_once = has_slips(network) ? linear_form(with_stuck_slips(network)) : form;
-    Real stiffness = at_once.static_stiffness;
-    for (const Mode& mode : at_once.modes) stiffness += mode.stiffness;
+    const Real stiffness = glass_stiffness(has_slips(network) ? linear_form(with_stuck_slips(network)) : form);
     if (stiffness > 0) return stiffness;
     diagnostics.report<DiagnosticCode::static_without_springs>(network.static_curve->span);
     return std::nullopt;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <ranges>
 
 #include "linear/normal_form.hpp"
 #include "linear/pencil.hpp"
@@ -86,15 +87,7 @@ class Block {
   // matrix of that kind is singular.
   template <class Carries>
   Eigen::Index floating_groups(Carries carries) const {
-    const DisjointSets groups = joined_by(carries);
-    std::vector<std::size_t> outside, floating;
-    for (NodeIndex node : outer_) outside.push_back(groups.find(node));
-    for (const auto& [node, row] : row_) floating.push_back(groups.find(node));
-    std::sort(floating.begin(), floating.end());
-    floating.erase(std::unique(floating.begin(), floating.end()), floating.end());
-    return std::count_if(floating.begin(), floating.end(), [&](std::size_t group) {
-      return std::find(outside.begin(), outside.end(), group) == outside.end();
-    });
+    return joined_by(carries).count_apart(std::views::keys(row_), outer_);
   }
 
   // Theory, section 2, with vectors: −(p + s q)(p + s q)ᵀ/(m + s d) of each mode.

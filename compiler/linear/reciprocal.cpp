@@ -47,9 +47,7 @@ Real zero_between(const LinearForm& form, std::size_t low, std::size_t high, con
 Real zero_above(const LinearForm& form) {
   const std::size_t last = form.modes.size() - 1;
   const Real from = form.modes[last].relaxation_rate;
-  Real total = form.static_stiffness;
-  for (const Mode& mode : form.modes) total += mode.stiffness;
-  Real to = 2 * from + 2 * total / form.feedthrough_damping;
+  Real to = 2 * from + 2 * glass_stiffness(form) / form.feedthrough_damping;
   const RegularisedStiffness f(form, last, no_pole);
   const bool sign_at_pole = f(from) > 0;
   while ((f(to) > 0) == sign_at_pole) to *= 2;
@@ -85,11 +83,7 @@ Real slope(const LinearForm& form, const Real& x) {
 LinearForm reciprocal(const LinearForm& form) {
   LinearForm inverse;
   if (form.static_stiffness == 0) inverse.static_stiffness = 1 / zero_frequency_damping(form);
-  if (form.feedthrough_damping == 0) {
-    Real glass_stiffness = form.static_stiffness;
-    for (const Mode& mode : form.modes) glass_stiffness += mode.stiffness;
-    inverse.feedthrough_damping = 1 / glass_stiffness;
-  }
+  if (form.feedthrough_damping == 0) inverse.feedthrough_damping = 1 / glass_stiffness(form);
   for (const Real& zero : zeros(form)) inverse.modes.push_back({1 / slope(form, zero), zero, 1, {}});
   return inverse;
 }

@@ -28,6 +28,20 @@ class DisjointSets {
     return a != b;
   }
 
+  // How many sets hold one of `members` and none of `others`.
+  template <class Members, class Others>
+  std::ptrdiff_t count_apart(const Members& members, const Others& others) const {
+    std::vector<bool> counted(parent_.size(), false);
+    for (std::size_t other : others) counted[find(other)] = true;
+    std::ptrdiff_t count = 0;
+    for (std::size_t member : members) {
+      const std::size_t set = find(member);
+      count += counted[set] ? 0 : 1;
+      counted[set] = true;
+    }
+    return count;
+  }
+
  private:
   mutable std::vector<std::size_t> parent_;  // find() shortens the paths to representatives
 };

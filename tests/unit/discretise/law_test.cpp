@@ -155,10 +155,8 @@ std::vector<Exact> reference_forces(const Compilation& c, const std::vector<Samp
 
 // What the forces are made of, all with the same sign: rounding is relative to this.
 double scale_of(const Compilation& c) {
-  Real glass = c.form.linear.static_stiffness;
-  for (const Mode& mode : c.form.linear.modes) glass += mode.stiffness;
   const Real damping = c.form.linear.feedthrough_damping + Real(c.law.damping) + zero_frequency_damping(c.form.linear);
-  return to_double(glass * Real(samples * 64 * 0x1p-12) + damping);
+  return to_double(glass_stiffness(c.form.linear) * Real(samples * 64 * 0x1p-12) + damping);
 }
 
 std::string complaint_about_forces(const Compiled& compiled, const std::vector<Sample>& motion) {

@@ -16,7 +16,7 @@ constexpr int most_steps_back = 6;     // from a damping that should have been a
 constexpr double same_damping = 1e-9;  // of the brake's reach
 
 // A damping beside the slips that has been run.
-struct Place {
+struct PlaceOnLine {
   Candidate beside;
   std::vector<FeltForce> felt;
   double added;  // for passivity [N·s/m]
@@ -27,7 +27,7 @@ struct Place {
 struct Line {
   StateInput input;
   SlipPlan plan;
-  std::vector<Place> places;  // by damping
+  std::vector<PlaceOnLine> places;  // by damping
 };
 
 class BesideSearch {
@@ -71,11 +71,13 @@ class BesideSearch {
  private:
   void look_at(Line& line, double damping) {
     const auto after = std::lower_bound(line.places.begin(), line.places.end(), damping,
-                                        [](const Place& p, double value) { return p.beside.damping < value; });
-    const auto is_there = [&](const Place& p) { return std::abs(p.beside.damping - damping) <= same_damping * most_; };
+                                        [](const PlaceOnLine& p, double value) { return p.beside.damping < value; });
+    const auto is_there = [&](const PlaceOnLine& p) {
+      return std::abs(p.beside.damping - damping) <= same_damping * most_;
+    };
     if ((after != line.places.end() && is_there(*after)) || (after != line.places.begin() && is_there(*(after - 1))))
       return;
-    Place place{before_, {}, 0, {}};
+    PlaceOnLine place{before_, {}, 0, {}};
     settler_.place(place.beside, damping);
     place.beside.state_input = line.input;
     SlipOption run = runs_.run(place.beside, line.plan);
@@ -104,7 +106,7 @@ class BesideSearch {
   // Between two neighbouring places, by interpolation.
   auto error_after(const Line& line, std::size_t i) {
     return [&, i, in_runs = ErrorBetween(runs_.trial(), line.places[i].felt, line.places[i + 1].felt)](double share) {
-      const Place &low = line.places[i], &high = line.places[i + 1];
+      const PlaceOnLine &low = line.places[i], &high = line.places[i + 1];
       const double band = band_error(line, damping_at(line, i, share), low.added + share * (high.added - low.added));
       return std::max(band, in_runs.at(share));
     };
@@ -112,9 +114,9 @@ class BesideSearch {
 
   // On either side of the best place so far: the error is convex.
   void look_for_least_error(Line& line) {
-    const auto at = std::min_element(line.places.begin(), line.places.end(), [](const Place& one, const Place& other) {
-      return one.option.error < other.option.error;
-    });
+    const auto at = std::min_element(
+        line.places.begin(), line.places.end(),
+        [](const PlaceOnLine& one, const PlaceOnLine& other) { return one.option.error < other.option.error; });
     double best = at->beside.damping, least = at->option.error;
     const auto here = static_cast<std::size_t>(at - line.places.begin());
     for (std::size_t i = here > 0 ? here - 1 : 0; i <= here && i + 1 < line.places.size(); ++i) {

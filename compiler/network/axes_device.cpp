@@ -21,7 +21,7 @@ namespace {
 using axes::Kinematics;
 using axes::Pair;
 
-const std::vector<std::string> kinds = {"serial", "parallelogram", "five_bar", "cartesian"};
+const std::vector<std::string> arm_kinds = {"serial", "parallelogram", "five_bar", "cartesian"};
 
 motion motion_of(Kinematics kind) { return kind == Kinematics::cartesian ? motion::translation : motion::rotation; }
 
@@ -58,14 +58,14 @@ class AxesDeviceBuilder {
   }
 
   bool read_kind(const Text& kind) {
-    const auto found = std::find(kinds.begin(), kinds.end(), kind.text);
-    if (found != kinds.end()) {
-      device_.arm.kind = static_cast<Kinematics>(found - kinds.begin());
+    const auto found = std::find(arm_kinds.begin(), arm_kinds.end(), kind.text);
+    if (found != arm_kinds.end()) {
+      device_.arm.kind = static_cast<Kinematics>(found - arm_kinds.begin());
       return true;
     }
     diagnostics_.report<DiagnosticCode::unknown_word>(kind.span, "'kinematics.kind'", excerpt(kind.text),
-                                                      fmt::format("{}", fmt::join(kinds, ", ")));
-    if (const auto nearest = nearest_name(kind.text, kinds))
+                                                      fmt::format("{}", fmt::join(arm_kinds, ", ")));
+    if (const auto nearest = nearest_name(kind.text, arm_kinds))
       diagnostics_.note<DiagnosticCode::nearest_name>({}, *nearest);
     return false;
   }
@@ -283,7 +283,7 @@ class AxesDeviceBuilder {
 
 }  // namespace
 
-std::string_view axes::name_of(Kinematics kind) { return kinds[static_cast<std::size_t>(kind)]; }
+std::string_view axes::name_of(Kinematics kind) { return arm_kinds[static_cast<std::size_t>(kind)]; }
 
 std::optional<AxesDevice> build_axes_device(const AxesDeviceDecl& decl, Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.error_count();

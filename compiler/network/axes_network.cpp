@@ -17,28 +17,6 @@ namespace {
 
 const std::vector<std::string> map_kinds = {"along", "ball", "cavity", "wall", "line", "grid"};
 
-bool is_kind(const std::string& key) { return std::find(map_kinds.begin(), map_kinds.end(), key) != map_kinds.end(); }
-
-// The one member that says what the map is; null, reported, where there is none or more than one.
-const JsonMember* kind_of(const JsonValue& map, const ObjectReader& reader, Diagnostics& diagnostics) {
-  const JsonMember* kind = nullptr;
-  for (const JsonMember& member : map.members) {
-    if (!is_kind(member.key)) continue;
-    if (kind != nullptr) {
-      diagnostics.report<DiagnosticCode::two_kinds_at_once>(member.key_span, "map", kind->key, member.key);
-      diagnostics.note<DiagnosticCode::first_given_here>(kind->key_span);
-      return nullptr;
-    }
-    kind = &member;
-  }
-  const bool is_misspelt =
-      std::any_of(map_kinds.begin(), map_kinds.end(), [&](const std::string& key) { return reader.is_misspelt(key); });
-  if (kind == nullptr && !is_misspelt)
-    diagnostics.report<DiagnosticCode::map_without_kind>(reader.opening(),
-                                                         fmt::format("{}", fmt::join(map_kinds, ", ")));
-  return kind;
-}
-
 // Reads the object of a map; a key that is missing is reported.
 class MapReader {
  public:
@@ -209,7 +187,8 @@ std::optional<Port> build_port(const PortDecl& decl, const std::optional<Range>&
                                Diagnostics& diagnostics) {
   ObjectReader reader(decl.map, "'map'", diagnostics);
   reader.refuse_other_keys(map_kinds);
-  const JsonMember* kind = kind_of(decl.map, reader, diagnostics);
+  const JsonMember* kind =
+      reader.one_of<DiagnosticCode::map_without_kind>(map_kinds, "map", fmt::format("{}", fmt::join(map_kinds, ", ")));
   const std::optional<axes::PortMap> map = kind ? read_map(*kind, diagnostics) : std::nullopt;
   std::optional<Network> network = build_network(decl.network, diagnostics, device_band);
   if (network)

@@ -35,6 +35,18 @@ bool ObjectReader::is_misspelt(std::string_view key) const {
   return std::find(misspelt_.begin(), misspelt_.end(), key) != misspelt_.end();
 }
 
+ObjectReader::Only ObjectReader::only_one_of(const std::vector<std::string>& keys, std::string_view what) const {
+  const auto is_one = [&](const JsonMember& m) { return std::find(keys.begin(), keys.end(), m.key) != keys.end(); };
+  const auto first = std::find_if(object_.members.begin(), object_.members.end(), is_one);
+  if (first == object_.members.end())
+    return {nullptr, std::any_of(keys.begin(), keys.end(), [&](const std::string& key) { return is_misspelt(key); })};
+  const auto second = std::find_if(first + 1, object_.members.end(), is_one);
+  if (second == object_.members.end()) return {&*first, false};
+  diagnostics_.report<DiagnosticCode::two_kinds_at_once>(second->key_span, what, first->key, second->key);
+  diagnostics_.note<DiagnosticCode::first_given_here>(first->key_span);
+  return {nullptr, true};
+}
+
 std::optional<Text> ObjectReader::text(std::string_view key) const {
   const JsonMember* member = find(key);
   return member == nullptr ? std::nullopt : read_text(key, member->value, diagnostics_);

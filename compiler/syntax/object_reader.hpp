@@ -24,6 +24,16 @@ class ObjectReader {
   const JsonMember* require(std::string_view key) const;  // reports where absent and not reported as misspelt
   bool is_misspelt(std::string_view key) const;           // known after refuse_other_keys
 
+  // The one member that has one of these keys. Null where there are two, reported as of `what`; and where there is
+  // none, reported by `code` with `arguments`, unless one of them was misspelt.
+  template <DiagnosticCode code, class... Arguments>
+  const JsonMember* one_of(const std::vector<std::string>& keys, std::string_view what,
+                           const Arguments&... arguments) const {
+    const Only only = only_one_of(keys, what);
+    if (only.member == nullptr && !only.is_told) diagnostics_.report<code>(opening(), arguments...);
+    return only.member;
+  }
+
   // Nothing where the key is absent or, reported, of another type.
   std::optional<Text> text(std::string_view key) const;
   std::optional<ValueDecl> value(std::string_view key) const;
@@ -35,6 +45,12 @@ class ObjectReader {
   Span opening() const;  // of the object: its bracket
 
  private:
+  struct Only {
+    const JsonMember* member;
+    bool is_told;  // why there is none
+  };
+  Only only_one_of(const std::vector<std::string>& keys, std::string_view what) const;
+
   const JsonValue& object_;
   std::string owner_;
   Diagnostics& diagnostics_;

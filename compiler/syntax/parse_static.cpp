@@ -9,27 +9,7 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-const std::vector<std::string> kinds = {"power", "exponential", "table"};
-
-bool is_kind(const std::string& key) { return std::find(kinds.begin(), kinds.end(), key) != kinds.end(); }
-
-// The one member that says what the curve is; null, reported, where there is none or more than one.
-const JsonMember* kind_of(const JsonValue& value, const ObjectReader& reader, Diagnostics& diagnostics) {
-  const JsonMember* kind = nullptr;
-  for (const JsonMember& member : value.members) {
-    if (!is_kind(member.key)) continue;
-    if (kind != nullptr) {
-      diagnostics.report<DiagnosticCode::two_kinds_at_once>(member.key_span, "static", kind->key, member.key);
-      diagnostics.note<DiagnosticCode::first_given_here>(kind->key_span);
-      return nullptr;
-    }
-    kind = &member;
-  }
-  const bool misspelt =
-      std::any_of(kinds.begin(), kinds.end(), [&](const auto& key) { return reader.is_misspelt(key); });
-  if (kind == nullptr && !misspelt) diagnostics.report<DiagnosticCode::static_without_kind>(reader.opening());
-  return kind;
-}
+const std::vector<std::string> curve_kinds = {"power", "exponential", "table"};
 
 std::optional<std::pair<ValueDecl, ValueDecl>> parse_row(const JsonValue& row, Diagnostics& diagnostics) {
   if (row.kind != Kind::array || row.items.size() != 2) {
@@ -49,7 +29,7 @@ std::optional<StaticDecl> parse_static(const JsonValue& value, Diagnostics& diag
                                     [](const JsonMember& member) { return member.key == "table"; });
   reader.refuse_other_keys(is_table ? std::vector<std::string>{"table", "power", "exponential", "is"}
                                     : std::vector<std::string>{"power", "exponential", "table", "force", "at", "is"});
-  const JsonMember* kind = kind_of(value, reader, diagnostics);
+  const JsonMember* kind = reader.one_of<DiagnosticCode::static_without_kind>(curve_kinds, "static");
   if (kind == nullptr) return std::nullopt;
   StaticDecl decl;
   decl.kind = kind->key;

@@ -133,4 +133,14 @@ PassivityBound stated_bound(const std::optional<MotorConstants>& motor, const Sa
   return is_lifted ? under_jitter(passivity_bound(motor, loop), *motor, loop, there) : proved_bound(motor, loop);
 }
 
+std::optional<double> stiffest_spring(const SampledLoop& loop) {
+  if (!loop.has_device) return std::nullopt;
+  MotorConstants spring;
+  spring.static_stiffness = 1, spring.half_static_stiffness = 0.5;
+  const Rational there = assured_damping(loop, Rational(loop.max_damping));
+  const PassivityBound bound = stated_bound(spring, loop, there);
+  if (bound.proof == Proof::none || bound.needed <= 0) return std::nullopt;
+  return there.convert_to<double>() / bound.needed;
+}
+
 }  // namespace dashpot::compiler

@@ -39,4 +39,9 @@ Certificate weighed_by_gap(UpdateLaw& law, const SampledLoop& loop, const SlipMo
 // damping that is assured without any addition [N·s/m].
 PassivityBound stated_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop, const Rational& there);
 
+// The stiffest spring that is certified by itself, with the brake at its largest damping [N/m]: what a spring needs is
+// proportional to its stiffness. Without lag and jitter that is 2 b/(T (1 + 2 n)). Nothing without a device, or where
+// nothing is proved of a spring.
+std::optional<double> stiffest_spring(const SampledLoop& loop);
+
 }  // namespace dashpot::compiler

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "certify/notes.hpp"
+#include "certify/proved_bound.hpp"
 #include "commands/explain.hpp"
 #include "decompose/slip_laws.hpp"
 #include "linear/quasi_linear.hpp"
@@ -176,6 +177,7 @@ Json json_of(const PortUnits& units) {
           {"velocity_gain", units.damping},
           {"motor_noise", units.force},
           {"extra_damping_any_delay", units.damping},
+          {"stiffest_spring", units.stiffness},
           {"quantisation_gain", units.stiffness},
           {"unpaid_force", units.force},
           {"max_force", units.force},
@@ -200,6 +202,7 @@ Json json_of(const Certificate& c) {
           {"minimum_damping", c.bound.proof == Proof::none ? Json(nullptr) : Json(c.minimum_damping)},
           {"added_damping", c.added_damping},
           {"reason", c.bound.reason},
+          {"stiffest_spring", or_null(stiffest_spring(c.loop))},
           {"quantisation_stiffness", c.quantisation_stiffness > 0 ? Json(c.quantisation_stiffness) : Json(nullptr)},
           {"quantisation_gain", or_null(c.quantisation_gain)},
           {"unpaid_force", c.loop.encoder_step > 0 && c.quantisation_gain ? Json(unpaid_force(c)) : Json(nullptr)}};

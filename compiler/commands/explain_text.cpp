@@ -6,6 +6,7 @@
 
 #include "certify/choice_text.hpp"
 #include "certify/notes.hpp"
+#include "certify/proved_bound.hpp"
 #include "commands/explain.hpp"
 #include "emit/banner.hpp"
 #include "decompose/slip_laws.hpp"
@@ -75,6 +76,14 @@ std::string valid_text(const Validity& valid, const PortUnits& units) {
   add("rate", valid.rate, units.velocity);
   add("displacement", valid.displacement, units.position);
   return "valid                 " + (text.empty() ? "no range is stated" : text) + "\n";
+}
+
+std::string stiffest_spring_text(const Compilation& c, const PortUnits& units) {
+  const std::optional<double> stiffest = stiffest_spring(c.certificate.loop);
+  if (!stiffest) return "";
+  return fmt::format(
+      "stiffest spring       {:.4g} {} by itself is certified here, with the brake at its largest damping\n", *stiffest,
+      units.stiffness);
 }
 
 // What the device's own numbers come to in currents, which shows a ratio that was forgotten.
@@ -266,6 +275,8 @@ std::string legend_of_lines(const std::string& text) {
       {"energy", "what the law itself can give back, and what rounding may add to it"},
       {"largest force", "what the law may ask of the motor, and what the motor can make"},
       {"over 'valid'", "the network's own force in such a motion, with its parameters as they are in the file"},
+      {"stiffest spring",
+       "the largest stiffness that this device can render of a lone spring, whatever the network is"},
       {"currents", "what the device file's limits and constants come to"},
       {"slew", "how fast the motor's force has to change, and how fast it can"},
       {"sudden loss", "of what force the motor may lag behind without giving energy"},
@@ -372,7 +383,8 @@ std::string explain_text(const Compilation& c, bool with_legend) {
   text += calculations_text(c.network);
   text += c.ports.empty() ? choice_text(c, units, with_legend) : ports_text(c, units, with_legend);
   if (!c.ports.empty()) text += brake_text(c, units);
-  text += to_text(c.certificate, c.network.port_motion) + push_text(c, units) + currents_text(c) + notes_text(c);
+  text += to_text(c.certificate, c.network.port_motion) + push_text(c, units) + stiffest_spring_text(c, units) +
+          currents_text(c) + notes_text(c);
   text += c.law.tunable ? tunable_text(c.law) : cost_text(c);
   if (with_legend) text += "\n" + legend_of_lines(text);
   return fitted(text);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "certify/motor_limits.hpp"
+#include "certify/proved_bound.hpp"
 #include "motors.hpp"
 
 namespace dashpot::compiler {
@@ -35,6 +36,23 @@ TEST(KnownValues, LateSpring) {
     loop.delay_samples = delay;
     expect_supremum(bound_of(spring_motor(800), loop), 800 * known_period / 2 * (1 + 2 * delay));
   }
+}
+
+// If this failed, the stiffest spring that is told would not be 2 (b_device + b_brake)/(T (1 + 2 n)): for the 7 mN·m·s
+// of the paper's rig 14 N·m/rad at 1 kHz and 140 at 10 kHz.
+TEST(KnownValues, StiffestSpring) {
+  SampledLoop loop = differencing_loop(known_period, 1);
+  loop.device_damping = 0.001;
+  loop.max_damping = 0.006;
+  for (const unsigned delay : {0u, 1u, 7u}) {
+    loop.delay_samples = delay;
+    for (const double period : {1e-3, 1e-4}) {
+      loop.sample_period = period;
+      EXPECT_NEAR(stiffest_spring(loop).value() * period * (1 + 2 * delay) / 0.014, 1, 1e-6) << delay;
+    }
+  }
+  loop.has_device = false;
+  EXPECT_FALSE(stiffest_spring(loop));
 }
 
 // With everything in the motor and the exact scheme, the need would not be k0 T/2 + b∞ + Σ (k/λ) tanh(λT/2).

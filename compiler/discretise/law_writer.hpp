@@ -114,8 +114,8 @@ class LawWriter {
   UpdateLaw& law_;
   std::string length_, force_;
   std::size_t last_bank_ = port_bank;
-  std::set<std::string> taken_ = {"relaxed", "velocity", "no",    "step",
-                                  "last",    "sampled",  "steady"};  // beginnings of the law's own names
+  // Beginnings of the law's own names, and what C calls whether parameters are there.
+  std::set<std::string> taken_ = {"relaxed", "velocity", "no", "step", "last", "sampled", "steady", "has_parameters"};
 };
 
 }  // namespace dashpot::compiler

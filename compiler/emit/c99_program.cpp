@@ -108,12 +108,24 @@ class C99Printer {
   // The parameters as in the file, what follows from them, and at rest at 0.
   Lines begin() {
     Lines lines;
-    for (const Variable& variable : law_.variables)
-      if (variable.role == Role::tuned)
-        lines.push_back(fmt::format("self->{} = {};", variable.name, number(variable.rest_value)));
+    if (has_parameters()) lines.push_back("self->has_parameters = 0;");
     if (law_.joints)
       lines.push_back(fmt::format("const {} origin[{}] = {{0}};", scalar(), law_.joints->positions.size()));
     lines.push_back(fmt::format("{}_reset(self, {});", name_, law_.joints ? "origin" : "0"));
+    return lines;
+  }
+
+  bool has_parameters() const { return !law_.parameters().empty(); }
+
+  // A reset of a structure that is all zero begins with the parameters of the file too.
+  Lines first_parameters() const {
+    if (!has_parameters()) return {};
+    Lines lines = {"if (self->has_parameters != 1) {  // as in the network's file"};
+    for (const Variable& variable : law_.variables)
+      if (variable.role == Role::tuned)
+        lines.push_back(fmt::format("  self->{} = {};", variable.name, number(variable.rest_value)));
+    append_all(lines, {"self->has_parameters = 1;"}, "  ");
+    lines.push_back("}");
     return lines;
   }
 
@@ -438,6 +450,7 @@ class C99Printer {
     for (const GuardInTurn& guard : law_.guards)
       lines.push_back(fmt::format("int {};  // first place of {} that is guarded next", guard.name,
                                   law_.variables[guard.state].name));
+    if (has_parameters()) lines.push_back("int has_parameters;  // 1 once they are there: as in the file, or set");
     return lines;
   }
 
@@ -516,7 +529,9 @@ class C99Printer {
     }
     for (const GuardInTurn& guard : law_.guards) lines.push_back(fmt::format("self->{} = 0;", guard.name));
     append_all(lines, lines_of(law_.rest));
-    return with_constants({&law_.start, &law_.rest}, std::move(lines));
+    Lines all = first_parameters();
+    append_all(all, with_constants({&law_.start, &law_.rest}, std::move(lines)));
+    return all;
   }
 
   // What states start at is worked out from it.

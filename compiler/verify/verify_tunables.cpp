@@ -66,8 +66,12 @@ void TunableVerification::recompute_bounds() {
   const Rational exact_share = assured_share(loop);
   const Reference share = Reference(numerator(exact_share)) / Reference(denominator(exact_share));
   const Reference hold = Reference(loop.longest_hold()) / Reference(loop.sample_period);
-  const ReferenceLoop around{hold, lateness(loop), share, gain ? std::optional(Reference(*gain)) : std::nullopt,
-                             reference_pulse(loop)};
+  const ReferenceLoop around{hold,
+                             lateness(loop),
+                             share,
+                             gain ? std::optional(Reference(*gain)) : std::nullopt,
+                             reference_pulse(loop),
+                             loop.brake_is_late};
   const auto box =
       compiled_.network.contact ? std::nullopt : reference_box(tunables_, *compiled_.law.tunable, around, facts_);
   const bool is_proved = certificate_.proof != name_of(Proof::none);

@@ -183,6 +183,7 @@ std::vector<ExpressionId> TunedSprings::given(const BlockPart& part) const {
 
 // Each force stays as it is, as far as the energy that springs and tank already hold allows.
 void TunedSprings::carry_forces_over() {
+  if (!owed_.empty()) set_aside_what_is_owed();
   for (SpringNames& spring : springs_)
     if (spring.changes) is_behind_map() ? keep_force(spring) : keep_what_it_can(spring);
   for (SpringNames& spring : springs_)
@@ -195,6 +196,18 @@ void TunedSprings::carry_forces_over() {
   });
   for (SpringNames& spring : springs_)
     if (spring.carried != nothing && !is_behind_map()) assign(spring.carried, spring.stiffness, "");
+  if (!owed_.empty()) assign(tank_, writer_.add(whole_tank_, writer_.subtract(read(tank_), tank_at_hand_)), "");
+}
+
+// What forces that the motor still holds may need of the tank is not for a change of parameters.
+void TunedSprings::set_aside_what_is_owed() {
+  ExpressionId sum = nothing;
+  for (std::size_t i = 0; i < owed_.size(); ++i)
+    sum = writer_.plus(sum, writer_.multiply(read(owed_[i]), change_in(owed_.size() - i)));
+  whole_tank_ = read(local("whole_tank", "J", read(tank_), ""));
+  const ExpressionId rest = local_of("tank_less_owed", "J", writer_.subtract(whole_tank_, sum));
+  tank_at_hand_ = local_of("tank_at_hand", "J", writer_.where(rest, rest, zero()));
+  assign(tank_, tank_at_hand_, "the tank, but for what forces that are still held may need");
 }
 
 ExpressionId TunedSprings::before(const SpringNames& spring) {

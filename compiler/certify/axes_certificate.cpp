@@ -641,6 +641,15 @@ std::vector<std::string> curl_lines(const AxesCertificate& c, const AxesDevice& 
                   c.why_no_gate)};
 }
 
+// Empty where no motor has a limit.
+std::string limits_of_motors(const AxesDevice& device) {
+  std::string text;
+  for (const device_description& joint : device.joints)
+    if (joint.motor.max_torque > 0)
+      text += fmt::format("{}{:.4g}", text.empty() ? "" : " and ", joint.motor.max_torque);
+  return text.empty() ? text : text + " " + port_units(device.joint_motion()).force;
+}
+
 }  // namespace
 
 std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDevice& device) {
@@ -658,6 +667,10 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
                   : "not certified, since " + why_not_certified(c, device),
       at_joints(c.needed, c, device), c.gate ? " leaves" : " and the brakes' share of the network's leave",
       at_joints(c.missing, c, device), in_millimetres(c.worst[0]), in_millimetres(c.worst[1])));
+  if (const std::string limits = limits_of_motors(device); !limits.empty())
+    lines.push_back("  the motors make up to " + limits +
+                    "; where the law asks for more each makes what it can, nothing is proved, and energy may come out: "
+                    "'dashpot run' says in how many samples");
   if (c.for_estimates > 0)
     lines.push_back(
         fmt::format("  of what is needed, {} are for what the motors make of estimated velocities, however late",

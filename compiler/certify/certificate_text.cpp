@@ -20,8 +20,9 @@ std::string covered(const Certificate& c) {
     jitter += fmt::format(", commands that act up to {:.4g} s after their samples", c.loop.write_latest);
   if (c.bound.proof == Proof::sampled)
     return fmt::format("any motion{}, samples at {:.6g} Hz{}", regimes, 1 / c.loop.sample_period, jitter);
-  const char* brake = c.bound.any_regime || c.bound.any_value ? "least command" : "command";
-  return "any motion" + regimes + jitter + ", any damping of the brake that is not below its " + brake;
+  const bool changes = c.bound.any_regime || c.bound.any_value;
+  return "any motion" + regimes + jitter + ", any damping of the brake that is not below " +
+         (changes && c.loop.has_device ? "what the device makes of its commands" : "its command");
 }
 
 std::string requirement(const Certificate& c, const std::string& unit) {

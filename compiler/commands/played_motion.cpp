@@ -246,8 +246,13 @@ std::string text_of_brake(double mean, double most, double for_passivity, const 
 
 std::string text_of_limits(const PlayedMotion& p) {
   if (p.limited == 0) return "";
-  return fmt::format("{} reached in {} samples of {}; a law that sheds forces there asks for less in those behind\n",
-                     p.axes == 1 ? "the motor's limits:" : "the motors' limits:", p.limited, p.samples.size());
+  if (p.axes > 1)
+    return fmt::format(
+        "the motors' limits: reached in {} samples of {}; each motor then makes what it can, and nothing is proved\n",
+        p.limited, p.samples.size());
+  return fmt::format(
+      "the motor's limits: reached in {} samples of {}; a law that sheds forces there asks for less in those behind\n",
+      p.limited, p.samples.size());
 }
 
 std::string text_of_energy(const PlayedMotion& p) {

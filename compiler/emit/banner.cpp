@@ -66,10 +66,11 @@ std::string validity_text(const Network& network) {
 }
 
 // How exact the scheme is between two samples.
-std::string in_words(Scheme scheme, bool switches, bool behind_map) {
+std::string in_words(Scheme scheme, bool switches, bool behind_map, bool is_mixed) {
   if (scheme == Scheme::backward_euler) return "the paper's own, whose error falls in proportion to the period";
   return std::string(behind_map ? "a motion whose w is straight between two samples is answered exactly"
                                 : "a motion that is straight between two samples is answered exactly") +
+         (is_mixed ? ", but for the elements that are told below" : "") +
          (switches ? ", but for samples in which a slip or a contact changes" : "");
 }
 
@@ -94,7 +95,8 @@ void describe_cost(const UpdateLaw& law, std::vector<std::string>& facts) {
 }
 
 // What may change, what follows it, and what that costs.
-void describe_tunables(const UpdateLaw& law, const std::string& damping_unit, std::vector<std::string>& facts) {
+void describe_tunables(const UpdateLaw& law, const SampledLoop& loop, const std::string& damping_unit,
+                       std::vector<std::string>& facts) {
   const TunableTables& tables = *law.tunable;
   std::string names, elements;
   for (const Tunable& t : tables.tunables)
@@ -105,6 +107,11 @@ void describe_tunables(const UpdateLaw& law, const std::string& damping_unit, st
       "  set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as "
       "other springs set energy free; but the motor still holds the force of the last sample, so call set() right "
       "after step() and take the command from output() of the same sample");
+  if (loop.is_late())
+    facts.push_back(fmt::format(
+        "  here {}: when a stiffness falls, larger forces of earlier samples still act for that time, and each such "
+        "change may bring in the difference times the tool's way; a certificate is of what happens between changes",
+        why_late(loop)));
   facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake.text));
   if (!elements.empty())
     facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
@@ -221,7 +228,8 @@ std::vector<std::string> banner(const Compilation& c, const UpdateLaw& law, Timi
   if (const std::string valid = validity_text(c.network); !valid.empty()) facts.push_back("valid: " + valid);
   describe_curve(c, facts);
   facts.push_back(fmt::format("scheme: {} at {} Hz, {}: {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar),
-                              in_words(c.law.scheme, changes_at_once(c), c.network.map.has_value())));
+                              in_words(c.law.scheme, changes_at_once(c), c.network.map.has_value(),
+                                       c.law.tunable && !c.law.tunable->mesh_elements.empty())));
   if (c.ports.empty()) describe_choice(c, unit, facts);
   else describe_ports(c, unit, facts);
   for (const std::string& line : passivity_lines(c.certificate, unit)) facts.push_back(line);
@@ -234,7 +242,7 @@ std::vector<std::string> banner(const Compilation& c, const UpdateLaw& law, Timi
                                        : "none is named: exact brake, no delay, and for velocity the difference of the "
                                          "last two positions over the period. Pass that velocity: a smoother estimate "
                                          "comes later, and nothing is certified for it here"));
-  if (law.tunable) describe_tunables(law, unit, facts);
+  if (law.tunable) describe_tunables(law, c.certificate.loop, unit, facts);
   else describe_cost(law, facts);
   if (timing == Timing::constant) facts.push_back("constant time: output() and update() choose by masks, not by jumps");
   if (has_loops(c.law)) facts.push_back(loops_line(c.law, c.registers));

@@ -14,6 +14,8 @@
 //   what the motors hold from one sample to the next needs 0.0446642 and 0.0446642 N·m·s/rad of damping at the
 //   joints; their own damping and the brakes' share of the network's leave 0.0445944 and 0.0445944 N·m·s/rad of it
 //   to be added, most at (-22.97, 120) mm
+//   the motors make up to 0.1 and 0.1 N m; where the law asks for more each makes what it can, nothing is proved,
+//   and energy may come out: 'dashpot run' says in how many samples
 //   of what is needed, 0.00743716 and 0.00743716 N·m·s/rad are for what the motors make of estimated velocities,
 //   however late
 //   of what is needed, 0.0336727 and 0.0336727 N·m·s/rad are for the lag of the motors' amplifiers

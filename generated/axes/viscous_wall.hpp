@@ -13,6 +13,8 @@
 //   what the motors hold from one sample to the next needs 0.0904794 and 0.0904794 N·m·s/rad of damping at the
 //   joints; their own damping and the brakes' share of the network's leave 0.0904095 and 0.0904095 N·m·s/rad of it
 //   to be added, most at (-0.3125, 109.6) mm
+//   the motors make up to 0.1 and 0.1 N m; where the law asks for more each makes what it can, nothing is proved,
+//   and energy may come out: 'dashpot run' says in how many samples
 //   of what is needed, 0.0200506 and 0.0200506 N·m·s/rad are for what the motors make of estimated velocities,
 //   however late
 //   of what is needed, 0.0655721 and 0.0655721 N·m·s/rad are for the lag of the motors' amplifiers

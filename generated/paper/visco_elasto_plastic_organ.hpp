@@ -11,8 +11,8 @@
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
 // passivity: certified for any motion, whatever slides, sticks, touches or lets go, any damping of the brake that
-//   is not below its least command: needs 3.05676 N·s/m, counted sample by sample over a hold of up to 0.001 s, at
-//   least 3.3 N·s/m is there
+//   is not below its command: needs 3.05676 N·s/m, counted sample by sample over a hold of up to 0.001 s, at least
+//   3.3 N·s/m is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take

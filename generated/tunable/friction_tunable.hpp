@@ -12,7 +12,7 @@
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
 // passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any values within their
-//   ranges between changes, any damping of the brake that is not below its least command: needs 2.5 N·s/m, counted
+//   ranges between changes, any damping of the brake that is not below its command: needs 2.5 N·s/m, counted
 //   sample by sample over a hold of up to 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the
 //   brake's command
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping

@@ -1,6 +1,7 @@
 // A Kelvin element in series with a spring: a tunable that mixes with its relaxation
 //
-// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for the
+//   elements that are told below
 // brake: makes b = 8 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series,
 //   (spring_1 | B1) turns 100 % of the energy into heat at low frequency, and the brake follows it
 // states: what the law remembers follows the measured position (position driven, so that a change of parameters
@@ -8,8 +9,8 @@
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
 // passivity: not certified for any motion, any values within their ranges between changes, any damping of the
-//   brake that is not below its least command: needs 16.4 N·s/m, counted sample by sample over a hold of up to
-//   0.001 s, at least 8 N·s/m is there, 8.4 N·s/m more is missing in the brake's command
+//   brake that is not below its command: needs 16.4 N·s/m, counted sample by sample over a hold of up to 0.001 s,
+//   at least 8 N·s/m is there, 8.4 N·s/m more is missing in the brake's command
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()

@@ -132,6 +132,58 @@ class Files(CommandTest):
         self.assertEqual(set(words) - set(re.findall(r"network name '(\w+)' is kept by C", told)), set())
         self.dashpot("compile", "exp.json", "-o", "out")
 
+    def test_c99_of_a_zeroed_structure(self):
+        """Fails if a structure that is all zero, reset or set without _init() before, has no parameters."""
+        self.dashpot("compile", SOURCE / "networks/tunable/standard_solid_tunable.json", "--target", "c99", "-o", ".")
+        self.write("begin.c", """#include <stdio.h>
+#include "standard_solid_tunable.h"
+typedef standard_solid_tunable law;
+static law begun, reset, set;
+static void play(law *self) {
+  for (int k = 1; k < 5; ++k) {
+    const dashpot_command c = standard_solid_tunable_step(self, k * 1e-3, 0.0);
+    printf("%.17g %.17g\\n", c.damping, c.force);
+  }
+}
+int main(void) {
+  standard_solid_tunable_parameters wanted = standard_solid_tunable_parameters_at_first();
+  standard_solid_tunable_init(&begun);
+  standard_solid_tunable_reset(&reset, 0);
+  play(&begun);
+  play(&reset);
+  wanted.K1 = 700;
+  standard_solid_tunable_init(&begun);
+  standard_solid_tunable_set(&begun, &wanted);
+  standard_solid_tunable_set(&set, &wanted);
+  standard_solid_tunable_reset(&set, 0.01);
+  standard_solid_tunable_reset(&begun, 0.01);
+  play(&begun);
+  play(&set);
+  return 0;
+}
+""")
+        subprocess.run(["gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", "begin.c", "-o",
+                        "begin"], cwd=self.folder, check=True)
+        lines = subprocess.run(["./begin"], cwd=self.folder, check=True, capture_output=True,
+                               text=True).stdout.split("\n")
+        self.assertEqual(lines[0:4], lines[4:8])
+        self.assertEqual(lines[8:12], lines[12:16])
+        self.assertNotEqual(lines[0:4], lines[8:12])
+
+    def test_test_of_mixed_schemes(self):
+        """Fails if the test that is written with a law holds elements by backward Euler to the exact scheme."""
+        self.write("mix.json", json.dumps({
+            "dashpot": 1, "name": "mix",
+            "parameters": {"k": {"value": "500 N/m", "tunable": True, "min": "0 N/m", "max": "1700 N/m"}},
+            "network": {"parallel": [
+                {"series": [{"damper": 2}, {"parallel": [{"damper": 6}, {"spring": "k"}]}]}, {"damper": 20}]}}))
+        self.dashpot("compile", "mix.json", "--target", "c99", "--with-test", "-o", ".")
+        header = " ".join((self.folder / "mix.h").read_text().replace("//", " ").split())
+        self.assertIn("is answered exactly, but for the elements that are told below", header)
+        subprocess.run(["gcc", "-std=c99", "-ffp-contract=off", "mix_test.c", "-lm", "-o", "mix"], cwd=self.folder,
+                       check=True)
+        subprocess.run(["./mix"], cwd=self.folder, check=True, capture_output=True)
+
     def test_c99(self):
         """Fails if --target c99 writes anything but one header in C, or what it has nothing for passes without a
         message."""

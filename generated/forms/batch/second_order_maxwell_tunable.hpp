@@ -10,8 +10,8 @@
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
 // passivity: not certified for any motion, any values within their ranges between changes, any damping of the
-//   brake that is not below its least command: needs 5.5652 N·s/m, counted sample by sample over a hold of up to
-//   0.001 s, at least 5.5 N·s/m is there, 0.0652 N·s/m more is missing in the brake's command
+//   brake that is not below its command: needs 5.5652 N·s/m, counted sample by sample over a hold of up to 0.001
+//   s, at least 5.5 N·s/m is there, 0.0652 N·s/m more is missing in the brake's command
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()

@@ -12,7 +12,7 @@
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
 // passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any values within their
-//   ranges between changes, any damping of the brake that is not below its least command: needs 2.5 N·s/m, counted
+//   ranges between changes, any damping of the brake that is not below its command: needs 2.5 N·s/m, counted
 //   sample by sample over a hold of up to 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the
 //   brake's command
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
@@ -171,6 +171,7 @@ typedef struct friction_tunable {
   double sampled_position;  // port displacement u, at this sample [m]
   double sampled_position_change;  // Δu since the sample before, at this sample [m]
   double sampled_spring_2_stretched;  // at this sample [m]
+  int has_parameters;  // 1 once they are there: as in the file, or set
   int sampled;  // 1 while a finite sample waits for friction_tunable_update()
 } friction_tunable;
 
@@ -219,8 +220,22 @@ static inline double friction_tunable_parameter_max(int i) {
 }
 
 // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A
-// NaN or infinite position counts as 0. Parameters stay as they are.
+// NaN or infinite position counts as 0. Parameters stay as they are; in a structure that was all zero they become those
+// of the network's file.
 static inline void friction_tunable_reset(friction_tunable *self, double position) {
+  if (self->has_parameters != 1) {  // as in the network's file
+    self->yield = 1.5;
+    self->presliding = 2000.0;
+    self->drag = 12.0;
+    self->step_stiffness = 0.0;
+    self->spring_2_carried_stiffness = 2000.0;
+    self->friction_yield = 1.5;
+    self->spring_2_answer = 2000.0;
+    self->spring_2_given_way = -0.0005;
+    self->steady_brake = 12.0;
+    self->velocity_gain = 0.0;
+    self->has_parameters = 1;
+  }
   const double zero = 0.0;  // nothing [1]
   self->held_force = 0.0;
   self->spring_2_elongation = 0.0;
@@ -239,16 +254,7 @@ static inline void friction_tunable_reset(friction_tunable *self, double positio
 
 // Starts at rest at 0, with the parameters' values of the network's file. Call it before all other functions.
 static inline void friction_tunable_init(friction_tunable *self) {
-  self->yield = 1.5;
-  self->presliding = 2000.0;
-  self->drag = 12.0;
-  self->step_stiffness = 0.0;
-  self->spring_2_carried_stiffness = 2000.0;
-  self->friction_yield = 1.5;
-  self->spring_2_answer = 2000.0;
-  self->spring_2_given_way = -0.0005;
-  self->steady_brake = 12.0;
-  self->velocity_gain = 0.0;
+  self->has_parameters = 0;
   friction_tunable_reset(self, 0);
   self->sampled = 0;
 }
@@ -327,6 +333,7 @@ static inline double friction_tunable_parameter(const friction_tunable *self, in
 // injects no energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and
 // has not changed. An update that is still due is done first, with the old parameters.
 static inline unsigned friction_tunable_set_values(friction_tunable *self, const double *wanted) {
+  if (self->has_parameters != 1) { friction_tunable_init(self); }
   friction_tunable_update(self);
   unsigned clamped = 0u;
   clamped |= friction_tunable_take_value(&friction_tunable_ranges[0], wanted[0], &self->yield) << 0;

@@ -125,7 +125,8 @@ static inline double second_order_maxwell_parameter_max(int i) {
 }
 
 // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A
-// NaN or infinite position counts as 0. Parameters stay as they are.
+// NaN or infinite position counts as 0. Parameters stay as they are; in a structure that was all zero they become those
+// of the network's file.
 static inline void second_order_maxwell_reset(second_order_maxwell *self, double position) {
   self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
   self->relaxed_force = 0.0;

@@ -13,8 +13,8 @@
 // late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
 //   'passivity'
 // passivity: certified for any motion, whatever slides, sticks, touches or lets go, any damping of the brake that
-//   is not below its least command: needs 1.3 N·s/m, counted sample by sample over a hold of up to 0.001 s, at
-//   least 3.3 N·s/m is there
+//   is not below its command: needs 1.3 N·s/m, counted sample by sample over a hold of up to 0.001 s, at least 3.3
+//   N·s/m is there
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
@@ -129,7 +129,8 @@ static inline double visco_elasto_plastic_parameter_max(int i) {
 }
 
 // Starts at rest at `position` [m]: only the springs that hold a force at rest are loaded, from 0. A
-// NaN or infinite position counts as 0. Parameters stay as they are.
+// NaN or infinite position counts as 0. Parameters stay as they are; in a structure that was all zero they become those
+// of the network's file.
 static inline void visco_elasto_plastic_reset(visco_elasto_plastic *self, double position) {
   self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
   self->K_spring_force = 0.0;

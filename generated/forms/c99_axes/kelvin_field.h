@@ -14,6 +14,8 @@
 //   from one sample to the next needs 0.00428038 and 0.00428038 N·m·s/rad of damping at the joints; their own
 //   damping and the brakes' share of the network's leave 0.00421049 and 0.00421049 N·m·s/rad of it to be added,
 //   most at (0.9375, 70) mm
+//   the motors make up to 0.1 and 0.1 N m; where the law asks for more each makes what it can, nothing is proved,
+//   and energy may come out: 'dashpot run' says in how many samples
 //   of what is needed, 0.00345047 and 0.00345047 N·m·s/rad are for what the motors make of estimated velocities,
 //   however late
 //   of what is needed, 0.000771214 and 0.000771214 N·m·s/rad are for the lag of the motors' amplifiers

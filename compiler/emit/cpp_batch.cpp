@@ -169,10 +169,10 @@ class BatchPrinter {
         ""};
     batch.constants.insert(batch.constants.begin(), begin.begin(), begin.end());
     batch.set = {
-        "// For one point. Call this right after step(), and take the commands from output() of the same samples: the",
-        "// motor then holds the old force no longer, and a spring that changes injects no energy. Bit i of the "
-        "result:",
-        "// parameter i was beyond its range and is now at its bound, or it was NaN and has not changed.",
+        "// For one point. Call this right after step(), and take the commands from output() of the same samples: in a",
+        "// loop that is not late the motor then holds the old force no longer, and a spring that changes injects no",
+        "// energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and",
+        "// has not changed.",
         "unsigned set(long long point, const parameters& wanted) noexcept {",
         "  scalar* const state = state_of(point);"};
     for (const std::string& line : lines_of_point(set_program(law_), true)) batch.set.push_back("  " + line);

@@ -107,9 +107,10 @@ class second_order_maxwell_tunable_batch {
     put(state, 17, last_brake_);
   }
 
-  // For one point. Call this right after step(), and take the commands from output() of the same samples: the
-  // motor then holds the old force no longer, and a spring that changes injects no energy. Bit i of the result:
-  // parameter i was beyond its range and is now at its bound, or it was NaN and has not changed.
+  // For one point. Call this right after step(), and take the commands from output() of the same samples: in a
+  // loop that is not late the motor then holds the old force no longer, and a spring that changes injects no
+  // energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and
+  // has not changed.
   unsigned set(long long point, const parameters& wanted) noexcept {
     scalar* const state = state_of(point);
     scalar held_force_ = state[0 * block];

@@ -329,9 +329,9 @@ static inline double friction_tunable_parameter(const friction_tunable *self, in
 }
 
 // Sets all parameters, in their order. Call it right after the step of a sample, and take the command from the output
-// of that sample without another update: the motor then holds the old force no longer, and a spring that changes
-// injects no energy. Bit i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and
-// has not changed. An update that is still due is done first, with the old parameters.
+// of that sample without another update: in a loop that is not late the motor then holds the old force no longer, and a
+// spring that changes injects no energy. Bit i of the result: parameter i was beyond its range and is now at its bound,
+// or it was NaN and has not changed. An update that is still due is done first, with the old parameters.
 static inline unsigned friction_tunable_set_values(friction_tunable *self, const double *wanted) {
   if (self->has_parameters != 1) { friction_tunable_init(self); }
   friction_tunable_update(self);

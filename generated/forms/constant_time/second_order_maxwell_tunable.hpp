@@ -144,9 +144,9 @@ class second_order_maxwell_tunable {
     return now;
   }
 
-  // Call this right after step(), and take the command from output() of the same sample without another update(): the
-  // motor then holds the old force no longer, and a spring that changes injects no energy. Bit i of the result:
-  // parameter i was beyond its range and is now at its bound, or it was NaN and has not changed.
+  // Call this right after step(), and take the command from output() of the same sample without another update(): in a
+  // loop that is not late the motor then holds the old force no longer, and a spring that changes injects no energy. Bit
+  // i of the result: parameter i was beyond its range and is now at its bound, or it was NaN and has not changed.
   unsigned set(const parameters& wanted) noexcept {
     update();
     unsigned clamped = 0;

@@ -157,18 +157,13 @@ void Magnitudes::for_each_state(Action action) const {
       action(first(law_.variables.id_of(v)) + place);
 }
 
-// A step of coupled slips is bounded for each of them by itself. A number is bounded as a sum of shares of the states:
-// eight of them cost about as much as the rest of an assignment.
+// A step of coupled slips is bounded for each of them by itself.
 std::size_t Magnitudes::effort_of(const std::vector<Statement>& program) const {
-  std::size_t sum = 0;
-  for (const Statement& statement : program) {
-    sum += statement.assigns() ? law_.variables[statement.target].size : 1;
+  std::size_t sum = program.size();
+  for (const Statement& statement : program)
     if (const auto* solve = std::get_if<SolveTree>(&statement.step))
       sum += static_cast<std::size_t>(law_.couplings[solve->coupling].operations());
-  }
-  std::size_t states = 0;
-  for_each_state([&](std::size_t) { ++states; });
-  return sum + sum * states / 8;
+  return sum;
 }
 
 template <class Action>

@@ -82,9 +82,8 @@ class Magnitudes {
   void step();
   Anchors find_anchors();
   const Anchors& anchors() const { return anchors_; }
-  // So far, in all cases: assignments of single numbers and steps of coupled slips, more for a law of many states.
-  std::size_t effort() const { return effort_; }
-  double force();  // largest magnitude [N]
+  std::size_t effort() const { return effort_; }  // statements and steps of coupled slips so far, in all cases
+  double force();                                 // largest magnitude [N]
 
   // How far below 0 and how far above each state may be, one after the other. For a force with an error that is carried
   // along these are bounds of their sum, for a state with an anchor of the difference.

@@ -51,8 +51,7 @@ Magnitudes anchored(const UpdateLaw& law, const InputRange& range) {
   return Magnitudes(law, range, Detail::choices, run.find_anchors());
 }
 
-// Limit on all attempts together, in assignments of single numbers: a few seconds. A contact on a limited motor has
-// many cases.
+// Limit on all attempts together, in statements: a few seconds. A contact on a limited motor has many cases.
 constexpr std::size_t most_effort = 2'500'000;
 
 StateBox named(const std::vector<double>& states, const Anchors& anchors, const UpdateLaw& law) {

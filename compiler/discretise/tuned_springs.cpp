@@ -181,9 +181,16 @@ std::vector<ExpressionId> TunedSprings::given(const BlockPart& part) const {
   return all;
 }
 
-// Each force stays as it is, as far as the energy that springs and tank already hold allows.
+// Each force stays as it is, as far as the energy that springs and tank already hold allows. What forces that the motor
+// still holds may need of the tank is not for that.
 void TunedSprings::carry_forces_over() {
-  if (!owed_.empty()) set_aside_what_is_owed();
+  ExpressionId whole = nothing, at_hand = nothing;
+  if (!owed_.empty()) {
+    whole = read(local("whole_tank", "J", read(tank_), ""));
+    const ExpressionId rest = local_of("tank_less_owed", "J", writer_.subtract(whole, owed_after(0)));
+    at_hand = local_of("tank_at_hand", "J", writer_.where(rest, rest, zero()));
+    assign(tank_, at_hand, "the tank, but for what forces that are still held may need");
+  }
   for (SpringNames& spring : springs_)
     if (spring.changes) is_behind_map() ? keep_force(spring) : keep_what_it_can(spring);
   for (SpringNames& spring : springs_)
@@ -196,18 +203,7 @@ void TunedSprings::carry_forces_over() {
   });
   for (SpringNames& spring : springs_)
     if (spring.carried != nothing && !is_behind_map()) assign(spring.carried, spring.stiffness, "");
-  if (!owed_.empty()) assign(tank_, writer_.add(whole_tank_, writer_.subtract(read(tank_), tank_at_hand_)), "");
-}
-
-// What forces that the motor still holds may need of the tank is not for a change of parameters.
-void TunedSprings::set_aside_what_is_owed() {
-  ExpressionId sum = nothing;
-  for (std::size_t i = 0; i < owed_.size(); ++i)
-    sum = writer_.plus(sum, writer_.multiply(read(owed_[i]), change_in(owed_.size() - i)));
-  whole_tank_ = read(local("whole_tank", "J", read(tank_), ""));
-  const ExpressionId rest = local_of("tank_less_owed", "J", writer_.subtract(whole_tank_, sum));
-  tank_at_hand_ = local_of("tank_at_hand", "J", writer_.where(rest, rest, zero()));
-  assign(tank_, tank_at_hand_, "the tank, but for what forces that are still held may need");
+  if (!owed_.empty()) assign(tank_, writer_.add(whole, writer_.subtract(read(tank_), at_hand)), "");
 }
 
 ExpressionId TunedSprings::before(const SpringNames& spring) {
@@ -434,15 +430,20 @@ void TunedSprings::write_update(ExpressionId change, ExpressionId position) {
   find_held();
 }
 
+// The most that held forces may need of the tank from so many samples on.
+ExpressionId TunedSprings::owed_after(std::size_t samples) {
+  ExpressionId sum = nothing;
+  for (std::size_t i = 0; i + samples < owed_.size(); ++i)
+    sum = writer_.plus(sum, writer_.multiply(read(owed_[i]), change_in(owed_.size() - samples - i)));
+  return sum;
+}
+
 // While the tool moves by Δ, the force that the motor holds too long may give out its size times |Δ|. That is taken
 // from the tank, and what the coming samples may still need stays reserved in it.
 void TunedSprings::pay_what_is_owed(ExpressionId change) {
-  ExpressionId sum = nothing, to_come = nothing;
-  for (std::size_t i = 0; i < owed_.size(); ++i) {
-    sum = writer_.plus(sum, read(owed_[i]));
-    const std::size_t left = owed_.size() - 1 - i;
-    if (left > 0) to_come = writer_.plus(to_come, writer_.multiply(read(owed_[i]), change_in(left)));
-  }
+  ExpressionId sum = nothing;
+  for (const VariableId owed : owed_) sum = writer_.plus(sum, read(owed));
+  const ExpressionId to_come = owed_after(1);
   const ExpressionId paid = writer_.multiply(sum, size_of(change, "owed_change"));
   assign(tank_, writer_.subtract(read(tank_), paid), "tank ← tank − Σ owed · |movement of the tool|");
   free_ = local_of("tank_free", "J", to_come == nothing ? read(tank_) : writer_.subtract(read(tank_), to_come));

@@ -99,7 +99,6 @@ class TunedSprings {
   std::vector<ExpressionId> given(const BlockPart& part) const;
   ExpressionId stiffness_of(const BlockPart& part) { return springs_[static_cast<std::size_t>(part.spring)].stiffness; }
   void carry_forces_over();
-  void set_aside_what_is_owed();
   ExpressionId before(const SpringNames& spring);
   void keep_what_it_can(SpringNames& spring);
   void pay_for_the_rest(SpringNames& spring);
@@ -120,6 +119,7 @@ class TunedSprings {
   ExpressionId middle_of_nothing(ExpressionId x, ExpressionId y, const std::string& name);
   void let_go();
   void bring_offsets_home();
+  ExpressionId owed_after(std::size_t samples);
   void pay_what_is_owed(ExpressionId change);
   void remember_what_is_owed();
   ExpressionId change_in(std::size_t samples);
@@ -162,7 +162,6 @@ class TunedSprings {
   std::vector<VariableId> owed_;
   ExpressionId free_ = nothing;  // in update(): energy in the tank that no coming sample can need
   ExpressionId newly_owed_ = nothing;
-  ExpressionId whole_tank_ = nothing, tank_at_hand_ = nothing;  // before a change of parameters; what it may use
 };
 
 }  // namespace dashpot::compiler

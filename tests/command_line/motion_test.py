@@ -70,8 +70,7 @@ class Motion(CommandTest):
                 self.assertGreater(told["energy"]["lowest"], -1e-9, (lag, choice))
                 needed[lag, choice] = stated["certificate"]["needed_damping"]
         paper = ("--decomposition", "paper")
-        # All that the motor may take out, 8 − 0 N s/m, is needed where the coil lags: the motor may be told so while
-        # the brake makes its least.
+        # The motor may take out 8 N s/m while the brake still makes 0.5: what is needed grows by the difference.
         self.assertAlmostEqual(needed["20 ms", paper] - needed["0 ms", paper], 7.5, places=6)
 
     def test_closed_form(self):

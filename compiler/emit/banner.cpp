@@ -184,6 +184,10 @@ bool changes_at_once(const Compilation& c) {
 
 }  // namespace
 
+bool mixes_schemes(const UpdateLaw& law) {
+  return law.scheme == Scheme::exact && law.tunable && !law.tunable->mesh_elements.empty();
+}
+
 std::string comment_text(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
@@ -227,9 +231,9 @@ std::vector<std::string> banner(const Compilation& c, const UpdateLaw& law, Timi
   if (!c.network.source.empty()) facts.push_back("source: " + c.network.source);
   if (const std::string valid = validity_text(c.network); !valid.empty()) facts.push_back("valid: " + valid);
   describe_curve(c, facts);
-  facts.push_back(fmt::format("scheme: {} at {} Hz, {}: {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar),
-                              in_words(c.law.scheme, changes_at_once(c), c.network.map.has_value(),
-                                       c.law.tunable && !c.law.tunable->mesh_elements.empty())));
+  facts.push_back(
+      fmt::format("scheme: {} at {} Hz, {}: {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar),
+                  in_words(c.law.scheme, changes_at_once(c), c.network.map.has_value(), mixes_schemes(c.law))));
   if (c.ports.empty()) describe_choice(c, unit, facts);
   else describe_ports(c, unit, facts);
   for (const std::string& line : passivity_lines(c.certificate, unit)) facts.push_back(line);

@@ -25,6 +25,9 @@ std::string to_text(const DeviceShare& share);
 // Facts, one behind the other, as lines of a comment.
 std::vector<std::string> comment_lines(const std::vector<std::string>& facts);
 
+// Whether some elements are stepped by backward Euler beside others that are exact.
+bool mixes_schemes(const UpdateLaw& law);
+
 // Lines of a comment: where the network comes from, its law, what is proved, and what a step costs.
 std::vector<std::string> banner(const Compilation& compilation, const UpdateLaw& law, Timing timing);
 

@@ -148,12 +148,11 @@ std::vector<Fields> jumps_on_curve(const Compilation& c) {
 
 std::string why_no_motion_is_played(const Compilation& c) {
   const bool is_limited = c.network.map ? jumps_on_curve(c).empty() : c.law.sheds();
-  const bool is_mixed = c.law.scheme == Scheme::exact && c.law.tunable && !c.law.tunable->mesh_elements.empty();
-  const char* const what = !c.ports.empty()     ? "several ports"
-                           : c.form.has_slips() ? "slips"
-                           : is_limited         ? "a motor at its limits"
-                           : is_mixed           ? "elements by backward Euler beside exact ones"
-                                                : nullptr;
+  const char* const what = !c.ports.empty()       ? "several ports"
+                           : c.form.has_slips()   ? "slips"
+                           : is_limited           ? "a motor at its limits"
+                           : mixes_schemes(c.law) ? "elements by backward Euler beside exact ones"
+                                                  : nullptr;
   return what ? fmt::format("with {} a force along it has no closed form", what) : "";
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emit/banner.hpp"
 #include "report/law_run.hpp"
 #include "report/number_text.hpp"
 #include "report/plot.hpp"
@@ -135,7 +136,7 @@ std::string agreement_html(const Compilation& c) {
   const PortUnits units = dotted_units(c.network.port_motion);
   const RampAndHold press = motion_for(c);
   const Comparison comparison = compare(c, press);
-  const bool is_exact = c.law.scheme == Scheme::exact && !(c.law.tunable && !c.law.tunable->mesh_elements.empty());
+  const bool is_exact = c.law.scheme == Scheme::exact && !mixes_schemes(c.law);
   const char* scheme = is_exact ? "The scheme is exact for this motion: what is left is rounding."
                                 : "Backward Euler errs by the order of the period.";
   return fmt::format(

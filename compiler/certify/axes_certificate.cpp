@@ -117,10 +117,9 @@ Pair<Sloped> dampings_over(const AxesNetwork& network, const std::vector<Certifi
 
 // Whether it is known what the brakes make of the ports' damping: only for two brakes by `diagonal` without a lag.
 bool is_brakes_part_known(const AxesDevice& device, axes::BrakeRule rule) {
-  const bool is_late = std::any_of(device.brakes.begin(), device.brakes.end(), [](const AlongBrake& brake) {
-    return brake.brake.coil_lag > 0 || brake.brake.slew > 0;
-  });
-  return rule == axes::BrakeRule::diagonal && device.brakes.size() == 2 && !is_late;
+  const bool are_prompt = std::all_of(device.brakes.begin(), device.brakes.end(),
+                                      [](const AlongBrake& brake) { return brake.brake.follows_at_once(); });
+  return rule == axes::BrakeRule::diagonal && device.brakes.size() == 2 && are_prompt;
 }
 
 // The damping that is there: the joints' own, plus what the brakes are known to make of the ports' damping with the

@@ -112,7 +112,7 @@ std::string why_no_gate(const AxesDevice& device, axes::BrakeRule rule) {
   if (rule != axes::BrakeRule::diagonal) return "by this rule the brakes do not make the diagonal of the field";
   if (device.brakes.size() != 2) return "there are more than two brakes";
   for (const AlongBrake& brake : device.brakes)
-    if (brake.brake.coil_lag > 0 || brake.brake.slew > 0) return "the brakes follow their commands late";
+    if (!brake.brake.follows_at_once()) return "the brakes follow their commands late";
   for (const device_description& joint : device.joints) {
     if (joint.motor.amplifier_lag > 0) return "the motors follow their commands late";
     if (!estimate_memory(loop_of_joint(joint)))

@@ -79,6 +79,8 @@ struct brake_description {
   double slew = 0;                         // of the current [A/s]; 0: unlimited
   double critical_speed = 0;               // v_c in b/(1 + (v/v_c)²) [rad/s] or [m/s]; 0: unlimited
   double safe_damping = 0;                 // commanded after a fault, same unit as max_damping
+
+  constexpr bool follows_at_once() const noexcept { return !(coil_lag > 0) && !(slew > 0); }
 };
 
 // The tool's side of a structure that gives: motor, brake, encoder, friction and damping are on the shaft, `mass` of

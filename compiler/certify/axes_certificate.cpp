@@ -149,13 +149,13 @@ axes::GivenDamping given_by(const AxesNetwork& network, const std::vector<Certif
 std::vector<double> addition(const AxesDevice& device, const Pair<double>& weight, double x) {
   Symmetric<double> made{0, 0, 0};
   for (const AlongBrake& brake : device.brakes) made = made + assured_share(brake, device) * axes::outer(brake.along);
-  const bool is_along_joints = made.xy == 0 && device.brakes.size() == 2;
+  const bool is_one_a_joint = device.brakes.size() == 2 && are_along_joints(device) && made.xx > 0 && made.yy > 0;
   std::vector<double> added;
   const double alike = x * axes::eigenvalues(Symmetric<double>{weight[0], 0, weight[1]}, made)[1];
   for (const AlongBrake& brake : device.brakes) {
     const std::size_t joint = brake.along[0] != 0 ? 0 : 1;
     const double length = brake.along[joint] * brake.along[joint];
-    const double own = is_along_joints ? x * weight[joint] / (assured_share(brake, device) * length) : alike;
+    const double own = is_one_a_joint ? x * weight[joint] / (assured_share(brake, device) * length) : alike;
     added.push_back(own * (1 + 1e-12));
   }
   return added;

@@ -70,11 +70,6 @@ double least_allowance(const Pair<double>& factor, const AxesDevice& device, con
   return std::max(-bound, 0.0);
 }
 
-bool are_along_joints(const AxesDevice& device) {
-  return std::all_of(device.brakes.begin(), device.brakes.end(),
-                     [](const AlongBrake& brake) { return brake.along[0] == 0 || brake.along[1] == 0; });
-}
-
 bool have_one_estimator(const AxesDevice& device) {
   const velocity_description &one = device.joints[0].velocity, &other = device.joints[1].velocity;
   return one.estimator == other.estimator && one.window == other.window && one.order == other.order &&
@@ -83,6 +78,11 @@ bool have_one_estimator(const AxesDevice& device) {
 }
 
 }  // namespace
+
+bool are_along_joints(const AxesDevice& device) {
+  return std::all_of(device.brakes.begin(), device.brakes.end(),
+                     [](const AlongBrake& brake) { return brake.along[0] == 0 || brake.along[1] == 0; });
+}
 
 double share_at_speed(const AlongBrake& brake, const AxesDevice& device) {
   double fastest = 0;
@@ -99,6 +99,7 @@ SampledLoop loop_of_joint(const device_description& joint) {
   SampledLoop loop;
   loop.has_device = true;
   loop.sample_period = joint.loop.sample_period;
+  loop.delay_samples = joint.loop.delay_samples;
   loop.jitter = joint.loop.jitter;
   loop.write_earliest = joint.loop.write_earliest;
   loop.write_latest = joint.loop.write_latest;

@@ -30,6 +30,9 @@ struct GatePassage {
 GatePassage gate_passage(const axes::CurlGate& gate, const AxesDevice& device, const std::vector<double>& added,
                          const axes::ViscousField& viscous);
 
+// Whether each brake acts on one joint alone.
+bool are_along_joints(const AxesDevice& device);
+
 // The share of a brake's damping that is left at the largest joint speeds; and the least share of its command that it
 // makes there [1].
 double share_at_speed(const AlongBrake& brake, const AxesDevice& device);

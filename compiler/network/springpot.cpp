@@ -32,12 +32,15 @@ struct Tail {
   double error;
 };
 
+// What the third of three sums has more than the first two give; 0 of a tail too far out for numbers.
+double spread(double sum, double first, double second) { return sum > 0 ? second - first * first / sum : 0; }
+
 // `x` is the first point left out, ln λ.
 Tail tail_below(double exponent, double scale, double x, double step, double low) {
   const double stiffness = scale * geometric(exponent, x, step);
   const double first = scale * geometric(exponent + 1, x, step);
   const double second = scale * geometric(exponent + 2, x, step);
-  return {{stiffness, first / stiffness}, (second - first * first / stiffness) * std::pow(low, -2 - exponent)};
+  return {{stiffness, first / stiffness}, spread(stiffness, first, second) * std::pow(low, -2 - exponent)};
 }
 
 Tail tail_above(double exponent, double scale, double x, double step, double high) {
@@ -45,7 +48,7 @@ Tail tail_above(double exponent, double scale, double x, double step, double hig
   const double first = scale * geometric(exponent - 2, x, step);
   const double second = scale * geometric(exponent - 3, x, step);
   const double rate = viscosity / first;
-  return {{viscosity * rate, rate}, (second - first * first / viscosity) * std::pow(high, 3 - exponent)};
+  return {{viscosity * rate, rate}, spread(viscosity, first, second) * std::pow(high, 3 - exponent)};
 }
 
 // Shifts the grid until the errors of both tails are equal: one grows as the other falls.

@@ -48,6 +48,18 @@ TEST(SpringpotLadder, HasTheKnownValues) {
   EXPECT_NEAR(largest_error(ladder, 0.5, 0.01, 100), 3.295e-3, 1e-6);
 }
 
+// Without an end if a grid is tried whose tails are too small for numbers, as wide bands lead to.
+TEST(SpringpotLadder, IsFoundOverTheWidestBands) {
+  for (const double exponent : {0.01, 0.5, 0.99})
+    for (const double width : {1e9, 1e15, 1e24})
+      for (const double error : {1e-9, 1e-5}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", exponent, width, error));
+        const SpringpotLadder ladder = springpot_ladder(exponent, 1e-6, 1e-6 * width, error);
+        EXPECT_LE(ladder.error, error);
+        EXPECT_LT(ladder.branches.size(), 400u);
+      }
+}
+
 // If this fails, the error that explain states for a springpot is no bound, or is so wide that elements are wasted.
 TEST(SpringpotLadder, KeepsItsBoundAndUsesFewElements) {
   // At most so many elements for 5 %, 1 % and 0.1 % over 2, 4 and 6 decades at exponent ½; others need no more.

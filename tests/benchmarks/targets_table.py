@@ -63,9 +63,9 @@ int main(void) {{
   {begin}
 """
 PACKAGE = {"declared": "static void (*step)(void *, double, double, double *);", "step": "step(law, u, v, answer);",
-           "begin": """law = malloc(((size_t (*)(void))named("law_size"))());
-  ((void (*)(void *))named("law_init"))(law);
-  step = (void (*)(void *, double, double, double *))named("law_step");"""}
+           "begin": """law = malloc(((size_t (*)(void))named("dashpot_law_size"))());
+  ((void (*)(void *))named("dashpot_law_init"))(law);
+  step = (void (*)(void *, double, double, double *))named("dashpot_law_step");"""}
 UNITS = {2: {"declared": """typedef const unsigned *refs;
 static int (*set)(void *, refs, size_t, const double *), (*step)(void *, double, double, int), (*get)(void *, refs, size_t, double *);
 static double now;""",

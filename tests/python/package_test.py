@@ -209,6 +209,8 @@ class Refusals(PackageTest):
         for name in ["numpy", "json", "lambda", "random", "None", "zoneinfo", "abc"]:
             self.refused(FIG_5, "--name", name, code="[name-is-word-of-python]")
         self.emitted(FIG_5, "--name", "numpys")
+        for name in ["law", "law_step", "column", "put", "run_arrays", "values"]:  # as its own source might
+            self.emitted(FIG_5, "--name", name)
 
     def test_compiler(self):
         """Fails if a missing or failing C compiler is not said, with what would do, or leaves files."""

@@ -85,6 +85,8 @@ FALSE = {"less is needed": lambda c: c["passivity"].update(needed_damping=c["pas
          "jitter": lambda c: c["loop"].update(jitter=1e-6), "a lag": lambda c: c["loop"].update(amplifier_lag=1e-5),
          "a late command": lambda c: c["loop"].update(write_latest=1e-6),
          "a delay": lambda c: c["loop"].update(delay_samples=1),
+         "a cut delay": lambda c: c["loop"].update(delay_samples=c["loop"]["delay_samples"] + 0.5),
+         "a wrapped delay": lambda c: c["loop"].update(delay_samples=c["loop"]["delay_samples"] + 2**32),
          "a filter": lambda c: c["loop"].update(estimator="kalman"),
          "another rate": lambda c: c["loop"].update(estimator_coefficients=[999.9]),
          "a row less": lambda c: c["storage"]["matrix"].pop(),

@@ -446,7 +446,8 @@ void TunedSprings::pay_what_is_owed(ExpressionId change) {
   const ExpressionId to_come = owed_after(1);
   const ExpressionId paid = writer_.multiply(sum, size_of(change, "owed_change"));
   assign(tank_, writer_.subtract(read(tank_), paid), "tank ← tank − Σ owed · |movement of the tool|");
-  free_ = local_of("tank_free", "J", to_come == nothing ? read(tank_) : writer_.subtract(read(tank_), to_come));
+  const ExpressionId rest = to_come == nothing ? read(tank_) : writer_.subtract(read(tank_), to_come);
+  free_ = read(local("tank_free", "J", rest, ""));
 }
 
 void TunedSprings::remember_what_is_owed() {

@@ -228,7 +228,8 @@ class TablesBuilder {
     if (!(speed > 0)) return;
     const double margin = 1 + 16 * unit_roundoff(choices_.scalar), lag = device.motor.amplifier_lag / period;
     const int of_lag = lag > 0 ? static_cast<int>(std::clamp(std::ceil(lag * std::log(64 * (1 + lag))), 1.0, 8.0)) : 0;
-    const double left = lag > 0 ? std::exp(-of_lag / lag) / -std::expm1(-1 / lag) : 0;
+    // So many samples take at least so many periods less the jitter.
+    const double left = lag > 0 ? std::exp((device.loop.jitter / period - of_lag) / lag) / -std::expm1(-1 / lag) : 0;
     const double change = speed * (period + device.loop.jitter) * margin;
     tables_.head.hold = {
         1 + static_cast<int>(device.loop.delay_samples) + (device.loop.write_latest > 0 ? 1 : 0) + of_lag,

@@ -235,6 +235,28 @@ TEST(Set, PaysForEachSpringOnce) {
   play(-4.3933e-4, 18);
 }
 
+// If this failed, a sample that is late by the jitter, and the next one that is not, would leave the amplifier less
+// time than is counted on, and a held force could give out more than the tank keeps back for it.
+TEST(Set, KeepsBackWhatALaggingAmplifierHoldsUnderJitter) {
+  compiler::Device device;
+  device.name = "described";
+  device.description.loop.sample_period = period;
+  device.description.loop.jitter = 0.4 * period;
+  device.description.motor.amplifier_lag = 2 * period;
+  device.description.encoder.max_speed = 1;
+  device.description.mechanics.damping = 5;
+  compiler::Diagnostics diagnostics;
+  const auto compiled =
+      compiler::compile(compiler::SourceFile("pressed.json", pressed_network), {}, device, diagnostics);
+  ASSERT_TRUE(compiled);
+  const compiler::TunableHold& hold = compiled->law.tunable->head.hold;
+  double most = 0;
+  for (int sample = hold.samples - 1; sample < 200; ++sample)
+    most += (period + 0.4 * period) * std::exp(-(sample * period - 0.4 * period) / (2 * period));
+  EXPECT_GE(hold.rest, most);
+  EXPECT_LE(hold.rest, most * (1 + 1e-12));
+}
+
 // Fails if relaxations go on faster where the command is taken from a second output() of each sample.
 TEST(Set, KeepsTheTimeWhereASampleIsPutOutTwice) {
   const TunableLaw compiled(pressed_network);

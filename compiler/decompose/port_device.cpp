@@ -111,6 +111,10 @@ double PortDevice::longest_hold() const {
   return loop.sample_period + loop.jitter + (loop.write_latest - loop.write_earliest);
 }
 double PortDevice::amplifier_lag() const { return description().motor.amplifier_lag; }
+bool PortDevice::acts_late() const {
+  const loop_description& loop = description().loop;
+  return loop.delay_samples > 0 || loop.write_latest > 0 || amplifier_lag() > 0;
+}
 double PortDevice::coil_lag() const { return description().brake.coil_lag; }
 
 double PortDevice::coil_slew() const {

@@ -53,6 +53,7 @@ class PortDevice {
   double sample_period() const;           // [s]
   double longest_hold() const;            // h and the longest lateness of a sample, T_max [s]
   double amplifier_lag() const;           // [s]
+  bool acts_late() const;                 // whether commands act later than at the instants of their samples
   double coil_lag() const;                // [s]
   double coil_slew() const;               // of √b [√(N·s/m)/s]; 0: unlimited
   std::string_view estimator_name() const;

@@ -114,7 +114,8 @@ SlipDecomposition SlipDecomposer::decomposed(const Candidate& linear_part, const
   slips.coil_share = coil_share(device, std::sqrt(span));
   slips.assured_share = assured_share(device);
   slips.make_up = make_up(linear_part, device);
-  // In the hold in which a coil gets a command it has not reached it yet, hence one more.
+  // In the hold in which a coil gets a command it has not reached it yet, hence one more. That also covers commands
+  // that act late by less than a period: the coil is then as far as it would be with the commands of a sample before.
   slips.memory = device.estimate_memory().value_or(0) + (slips.coil_share < 1 ? 1 : 0);
   slips.ramp = ramp_of(slips.memory, slips.coil_share);
   return slips;

@@ -100,6 +100,7 @@ class TablesBuilder {
     const double surface = network_.surface_behind_map();
     head.contact = {network_.contact.has_value(), to_scalar(Real(surface)),
                     to_scalar(Real(decomposition_.encoder_step))};
+    head.acts_late = device_.acts_late();
     const SlipDecomposition& slips = decomposition_.slips;
     head.slip_rule = {false, to_scalar(Real(slips.hysteresis)), to_scalar(Real(slips.coil_share))};
   }

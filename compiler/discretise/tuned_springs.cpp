@@ -194,7 +194,8 @@ void TunedSprings::carry_forces_over() {
   for (SpringNames& spring : springs_)
     if (spring.changes) is_behind_map() ? keep_force(spring) : keep_what_it_can(spring);
   for (SpringNames& spring : springs_)
-    if (spring.changes) is_behind_map() ? soften(spring) : pay_for_the_rest(spring);
+    if (spring.changes)
+      is_behind_map() ? soften(spring) : head_.acts_late ? pay_while_old_forces_act(spring) : pay_for_the_rest(spring);
   is_behind_map() ? find_stiffest_share() : make_up_for_others();
   each_part([&](const BlockPart& part) {
     each_spring(part, [&](SpringNames& spring) {
@@ -210,21 +211,52 @@ ExpressionId TunedSprings::before(const SpringNames& spring) {
   return spring.carried == nothing ? spring.stiffness : read(spring.carried);
 }
 
-// A stiffer spring keeps its force, a softer one F √(k′/k); what a stiffer one sets free goes into the tank. A
-// stiffness that no parameter changes leaves both as they are.
+// A stiffer spring keeps its force, and what that sets free goes into the tank. A softer one keeps its energy, with
+// F √(k′/k). Where commands act late, it keeps its elongation instead, with F k′/k: larger forces of before the change
+// still act then, and what the spring loses pays for them. A stiffness that no parameter changes leaves both as they
+// are.
 void TunedSprings::keep_what_it_can(SpringNames& spring) {
   spring.kept = spring.force;
   if (spring.carried == nothing) return;
   const ExpressionId k = before(spring), next = spring.stiffness, f = read(spring.force);
-  const ExpressionId softer = writer_.multiply(f, writer_.square_root(writer_.divide(next, k)));
+  const ExpressionId left = writer_.divide(next, k);
+  const ExpressionId softer = writer_.multiply(f, head_.acts_late ? left : writer_.square_root(left));
   spring.kept = local(joined(spring.name, "force_kept"), writer_.force(),
                       writer_.where(writer_.subtract(k, next), writer_.where(next, softer, zero()), f),
-                      "F, or F √(k′/k) where the new stiffness k′ is lower");
+                      head_.acts_late ? "F, or F k′/k where the new stiffness k′ is lower"
+                                      : "F, or F √(k′/k) where the new stiffness k′ is lower");
   const ExpressionId now = local_of(joined(spring.name, "energy_before"), "J", energy(f, k));
   spring.wanted_energy = local_of(joined(spring.name, "energy_after"), "J", energy(f, next));
   const ExpressionId freed =
       writer_.where(writer_.subtract(next, k), writer_.subtract(now, spring.wanted_energy), zero());
-  assign(tank_, writer_.add(writer_.add(read(tank_), freed), writer_.where(next, zero(), now)), "");
+  const ExpressionId of_rise = writer_.add(read(tank_), freed);
+  assign(tank_, head_.acts_late ? of_rise : writer_.add(of_rise, writer_.where(next, zero(), now)), "");
+}
+
+// For a spring that goes from k to a softer k′: raises its force from F k′/k towards F with the energy in the tank. F₊
+// costs ½ k (F₊ − F k′/k)²/(k′ (k − k′)), which is what it stores more than before and what the larger force of before
+// the change may give out at most while it still acts, whatever the tool does (theory, section 6).
+void TunedSprings::pay_while_old_forces_act(SpringNames& spring) {
+  if (spring.carried == nothing) return;
+  const ExpressionId k = before(spring), next = spring.stiffness, f = read(spring.force), tank = read(tank_);
+  const ExpressionId short_of =
+      local_of(joined(spring.name, "force_short"), writer_.force(), writer_.subtract(f, read(spring.kept)));
+  const ExpressionId differs = local_of(joined(spring.name, "falls_short"), writer_.force(),
+                                        writer_.where(next, size_of(short_of, joined(spring.name, "short")), zero()));
+  const ExpressionId twice =
+      local_of(joined(spring.name, "stiffness_that_pays"), writer_.stiffness(),
+               writer_.divide(writer_.multiply(writer_.multiply(two(), next), writer_.subtract(k, next)), k));
+  const ExpressionId cost =
+      local_of(joined(spring.name, "energy_missing"), "J", writer_.divide(writer_.multiply(short_of, short_of), twice));
+  const ExpressionId unpaid = local_of(joined(spring.name, "energy_unpaid"), "J", writer_.subtract(cost, tank));
+  const ExpressionId paid =
+      local_of(joined(spring.name, "force_paid"), writer_.force(), writer_.square_root(writer_.multiply(twice, tank)));
+  const ExpressionId most = writer_.add(read(spring.kept), writer_.where(f, paid, writer_.multiply(minus_one(), paid)));
+  const VariableId result = local(joined(spring.name, "force_after"), writer_.force(),
+                                  writer_.where(differs, writer_.where(unpaid, most, f), read(spring.kept)),
+                                  "F as before, as far as the energy in the tank allows");
+  assign(tank_, writer_.where(differs, writer_.where(unpaid, zero(), writer_.subtract(tank, cost)), tank), "");
+  spring.kept = result;
 }
 
 // Raises the kept force towards F as far as the energy in the tank allows.

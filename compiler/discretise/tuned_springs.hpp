@@ -102,6 +102,7 @@ class TunedSprings {
   ExpressionId before(const SpringNames& spring);
   void keep_what_it_can(SpringNames& spring);
   void pay_for_the_rest(SpringNames& spring);
+  void pay_while_old_forces_act(SpringNames& spring);
   void keep_force(SpringNames& spring);
   void soften(SpringNames& spring);
   void find_stiffest_share();

@@ -109,8 +109,9 @@ void describe_tunables(const UpdateLaw& law, const SampledLoop& loop, const std:
       "after step() and take the command from output() of the same sample");
   if (loop.is_late())
     facts.push_back(fmt::format(
-        "  here {}: when a stiffness falls, larger forces of earlier samples still act for that time, and each such "
-        "change may bring in the difference times the tool's way; a certificate is of what happens between changes",
+        "  here {}: forces of before a change still act for that time; what a spring loses that becomes softer pays "
+        "for them, but one that becomes stiffer again within that time may bring in half the rise times the square of "
+        "the tool's way; a certificate is of what happens between changes",
         why_late(loop)));
   facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake.text));
   if (!elements.empty())

@@ -136,6 +136,7 @@ struct TunableHead {
   double motor_step = 0;   // largest change of the force in a sample; 0: no limit [N]
   TunableMap map = {false, 0, 0};
   TunableHold hold = {};
+  bool acts_late = false;  // commands act later than at the instants of their samples
 };
 
 struct Tunable {

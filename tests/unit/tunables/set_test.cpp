@@ -298,7 +298,7 @@ double taken_in_a_late_loop(const Cycle& cycle) {
 }
 
 // Fails if a spring that becomes softer in a late loop keeps more force than its elongation makes of it: larger forces
-// of before the change still act then. A search found these cycles; with F √(k′/k) they gave out 14 and 24 mJ.
+// of before the change still act then. A search found these cycles; with F √(k′/k) they gave out 14 and 28 mJ.
 TEST(Set, PaysForForcesOfBeforeTheChangeThatStillAct) {
   const Cycle made_soft_in_steps = {
       -2.73e-3, {{800, -1.8e-4}, {800, -2.2e-4}, {800, -2.4e-4}, {800, -2.4e-4}, {800, -2.4e-4}, {800, -2.2e-4},

@@ -377,7 +377,9 @@ void describe(CLI::App& app, CommandLine& line) {
       ->option_text("text|json");
   compile->add_option("--print", options.print, "Print a stage and write nothing")
       ->check(CLI::IsMember({"network", "linear", "decomposition", "law", "certificate"}))
-      ->option_text("network|linear|decomposition|law|certificate");
+      ->option_text("network|linear|decomposition|law|certificate")
+      ->excludes("--certificate")
+      ->excludes("--proof");
 
   CLI::App* simulate = add_command(app, line, "simulate", "Run the law over a recorded motion");
   add_networks(*simulate, line, false);

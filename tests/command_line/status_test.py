@@ -148,6 +148,8 @@ class WrongCommandLine(CommandTest):
                    mentions="there is no target 'cobol'; targets are cpp, c99, hal, fmi2, fmi3")
         self.wrong("compile", FIG_5, "--target", "c98", mentions="'c99' is the nearest")
         self.wrong("compile", FIG_5, "--print", "everything", mentions="everything")
+        for option in ["--certificate", "--proof"]:  # which would be written, and --print writes nothing
+            self.wrong("compile", FIG_5, "--print", "law", option, "told", mentions=option)
 
     def test_of_files_that_would_be_overwritten(self):
         """Fails if a network, a device or a motion can be lost to the output of the same command."""

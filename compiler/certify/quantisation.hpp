@@ -7,9 +7,9 @@
 // late, or averaged, w stays as small. Over a path the motor gives with it at most (K Δ/2) ∫|u̇| dt more than the
 // certificate speaks of, and friction takes f_c ∫|u̇| dt. So with a certificate, whatever the motion,
 //     energy taken up by motor, brake and mechanics ≥ −(K Δ/2 − f_c)⁺ ∫|u̇| dt − K Δ²/8
-// where the last term is the static spring's tension under half a step with which a flooring encoder starts, at most,
-// and is not there for a rounding one. For K ≤ 2 f_c/Δ friction pays for all of it; no brake does, which is off at
-// rest.
+// where the last term is the static spring's tension under half a step with which an encoder may start, at most. It
+// comes once, and is not there where a rounding encoder starts on a count. For K ≤ 2 f_c/Δ friction pays for all of it;
+// no brake does, which is off at rest.
 //
 // Slips. Beside the tool that goes y = u + q and moves the slips by p, think of one that goes u while the slips move by
 // the same p. Between the two the law is linear: its motor's force differs by w, |w| ≤ K Δ/2, with K of the network in

@@ -43,14 +43,14 @@ class Box : private BoxNumbers {
         const bool is_rounding = most(gain) <= Rational(1e-9) * (1 + abs(most(brake)));
         if (!is_rounding && !loop_.gain) return nothing_for("nothing is proved for the estimator in the motor");
         if (!is_rounding) largest_gain = std::max(largest_gain, most(gain));
-        Affine lacking = loop_.brake_is_late ? asked : plus(asked, brake, -loop_.share);
+        Affine lacking = loop_.out_of_step ? asked : plus(asked, brake, -loop_.share);
         if (loop_.gain) lacking = plus(lacking, gain, loop_.hold * Rational(*loop_.gain));
         const Rational here =
             most(lacking) + (made_up > 0 ? Rational(loop_.hold * Rational(*loop_.gain) * made_up) : Rational(0));
         worst = worst ? std::max(*worst, here) : here;
       }
     }
-    if (loop_.brake_is_late) *worst -= loop_.share * least_brake;
+    if (loop_.out_of_step) *worst -= loop_.share * least_brake;
     largest_brake = std::min(Rational(largest_brake + behind_slips), Rational(tables_.brake.max_damping));
     return {ceiling(*worst),
             -ceiling(-least_brake),

@@ -34,8 +34,9 @@ struct BoxMotor {
 };
 
 // `hold`: T_max/h; `lateness` as in slip_motor.hpp; `gain`: γ of the estimate, empty if it is not known;
-// `share`: of the brake's command that is assured; where the brake is late, of the least one over the box: the motor
-// may take out of a command what the brake, still on its way from another, does not make.
+// `share`: of the brake's command that is assured; where brake and motor are out of step, of the least one over the
+// box: the motor may take out of a command what the brake, still on its way from another or there already, does not
+// make.
 struct BoxLoop {
   Rational hold;
   double lateness;
@@ -43,7 +44,7 @@ struct BoxLoop {
   Rational share;
   std::optional<double> pulse = {};  // Σ|h_j| of the estimate [1/s]
   double encoder_step = 0;           // [m]
-  bool brake_is_late = false;
+  bool out_of_step = false;
 };
 
 // In: a law with tunables.

@@ -280,7 +280,7 @@ PassivityBound bound_of(const UpdateLaw& law, const SampledLoop& loop, const std
 
 BoxMotor box_of(const UpdateLaw& law, const SampledLoop& loop) {
   return box_motor(law, {longest_hold_share(loop), lateness(loop), estimate_gain(loop), assured_share(loop),
-                         estimate_pulse(loop), loop.encoder_step, loop.brake_is_late});
+                         estimate_pulse(loop), loop.encoder_step, loop.out_of_step});
 }
 
 // Lower bound of the command: one that changes is a sum, whose rounding is allowed for.

@@ -26,7 +26,7 @@ SampledLoop sampled_loop(const PortDevice& device, double sample_period) {
   loop.write_latest = joint.loop.write_latest;
   loop.amplifier_lag = joint.motor.amplifier_lag;
   loop.tolerance = joint.brake.tolerance;
-  loop.brake_is_late = !joint.brake.follows_at_once();
+  loop.out_of_step = !joint.brake.follows_at_once() || joint.motor.amplifier_lag > 0;
   loop.largest_speed = joint.encoder.max_speed;  // only their ratio counts: no conversion to the tool
   loop.critical_speed = joint.brake.critical_speed;
   loop.max_damping = device.max_damping().value_or(0);

@@ -17,7 +17,7 @@ struct SampledLoop {
   double write_latest = 0;        // the same, at the latest [s]
   double amplifier_lag = 0;       // τ, first order [s]
   double tolerance = 0;           // ε of the brake [1]
-  bool brake_is_late = false;     // its coil follows a command that changes with a lag or at a limited rate
+  bool out_of_step = false;       // brake and motor follow a command that changes at different times
   double largest_speed = 0;       // [m/s]; 0: not stated
   double critical_speed = 0;      // v_c of b/(1 + (v/v_c)²) [m/s]; 0: the brake does not fade
   double max_damping = 0;         // of the brake, without the residual [N·s/m]; not used without a device

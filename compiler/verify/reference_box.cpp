@@ -40,7 +40,7 @@ class Box {
       box.largest_brake = std::max(box.largest_brake, most(brake));
       const ReferenceSum difference = added(feedthrough(), brake, -1);
       for (const ReferenceSum& gain : {added(difference, at_ports_of_meshes()), added({}, difference, -1)}) {
-        ReferenceSum lacking = loop_.brake_is_late ? asked : added(asked, brake, -loop_.share);
+        ReferenceSum lacking = loop_.out_of_step ? asked : added(asked, brake, -loop_.share);
         if (loop_.gain) lacking = added(lacking, gain, loop_.hold * *loop_.gain);
         const Reference extra = made_up > 0 ? Reference(loop_.hold * *loop_.gain * made_up) : Reference(0);
         const Reference here = most(lacking) + extra;
@@ -48,7 +48,7 @@ class Box {
       }
     }
     box.largest_brake = std::min(Reference(box.largest_brake + behind_slips), Reference(tables_.brake.max_damping));
-    box.lacking = loop_.brake_is_late ? Reference(*worst - loop_.share * box.least_brake) : *worst;
+    box.lacking = loop_.out_of_step ? Reference(*worst - loop_.share * box.least_brake) : *worst;
     return box;
   }
 

@@ -26,7 +26,7 @@ struct ReferenceLoop {
   Reference hold, lateness, share;
   std::optional<Reference> gain;
   std::optional<ReferenceGain> pulse;  // Σ|h_j| of the estimate [1/s]
-  bool brake_is_late;                  // then only the least b over the box is assured
+  bool out_of_step;                    // then only the least b over the box is assured
 };
 
 // `tables`: what the brake's rule is, and what it reaches; choices. Empty where nothing is proved.

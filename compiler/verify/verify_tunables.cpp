@@ -71,7 +71,7 @@ void TunableVerification::recompute_bounds() {
                              share,
                              gain ? std::optional(Reference(*gain)) : std::nullopt,
                              reference_pulse(loop),
-                             loop.brake_is_late};
+                             loop.out_of_step};
   const auto box =
       compiled_.network.contact ? std::nullopt : reference_box(tunables_, *compiled_.law.tunable, around, facts_);
   const bool is_proved = certificate_.proof != name_of(Proof::none);

@@ -34,6 +34,9 @@ class Box : private BoxNumbers {
           "bounds that over the ranges of the parameters; with a brake whose damping does not change, as with "
           "--decomposition 0, there is a bound");
     const Affine asked = needed();
+    // A command that no parameter changes finds brake and motor in step.
+    const bool may_part = loop_.out_of_step &&
+                          std::ranges::any_of(brakes, [&](const Affine& brake) { return most(brake) != least(brake); });
     std::optional<Rational> worst;  // below 0 if there is more than is needed
     Rational least_brake = std::max(Rational(0), least(brakes.front())), largest_brake = 0, largest_gain = 0;
     for (const Affine& brake : brakes) {
@@ -43,14 +46,14 @@ class Box : private BoxNumbers {
         const bool is_rounding = most(gain) <= Rational(1e-9) * (1 + abs(most(brake)));
         if (!is_rounding && !loop_.gain) return nothing_for("nothing is proved for the estimator in the motor");
         if (!is_rounding) largest_gain = std::max(largest_gain, most(gain));
-        Affine lacking = loop_.out_of_step ? asked : plus(asked, brake, -loop_.share);
+        Affine lacking = may_part ? asked : plus(asked, brake, -loop_.share);
         if (loop_.gain) lacking = plus(lacking, gain, loop_.hold * Rational(*loop_.gain));
         const Rational here =
             most(lacking) + (made_up > 0 ? Rational(loop_.hold * Rational(*loop_.gain) * made_up) : Rational(0));
         worst = worst ? std::max(*worst, here) : here;
       }
     }
-    if (loop_.out_of_step) *worst -= loop_.share * least_brake;
+    if (may_part) *worst -= loop_.share * least_brake;
     largest_brake = std::min(Rational(largest_brake + behind_slips), Rational(tables_.brake.max_damping));
     return {ceiling(*worst),
             -ceiling(-least_brake),

@@ -33,6 +33,9 @@ class Box {
     const Reference behind_slips = largest_behind_slips(), made_up = make_up(brakes, behind_slips);
     if (brakes.empty() || (made_up > 0 && !loop_.gain)) return std::nullopt;
     const ReferenceSum asked = needed();
+    const bool may_part =
+        loop_.out_of_step && std::any_of(brakes.begin(), brakes.end(),
+                                         [&](const ReferenceSum& brake) { return most(brake) != least(brake); });
     std::optional<Reference> worst;  // below 0 if there is more than is needed
     ReferenceBox box{0, std::max(Reference(0), least(brakes.front())), 0, gain_of_step(brakes, made_up)};
     for (const ReferenceSum& brake : brakes) {
@@ -40,7 +43,7 @@ class Box {
       box.largest_brake = std::max(box.largest_brake, most(brake));
       const ReferenceSum difference = added(feedthrough(), brake, -1);
       for (const ReferenceSum& gain : {added(difference, at_ports_of_meshes()), added({}, difference, -1)}) {
-        ReferenceSum lacking = loop_.out_of_step ? asked : added(asked, brake, -loop_.share);
+        ReferenceSum lacking = may_part ? asked : added(asked, brake, -loop_.share);
         if (loop_.gain) lacking = added(lacking, gain, loop_.hold * *loop_.gain);
         const Reference extra = made_up > 0 ? Reference(loop_.hold * *loop_.gain * made_up) : Reference(0);
         const Reference here = most(lacking) + extra;
@@ -48,7 +51,7 @@ class Box {
       }
     }
     box.largest_brake = std::min(Reference(box.largest_brake + behind_slips), Reference(tables_.brake.max_damping));
-    box.lacking = loop_.out_of_step ? Reference(*worst - loop_.share * box.least_brake) : *worst;
+    box.lacking = may_part ? Reference(*worst - loop_.share * box.least_brake) : *worst;
     return box;
   }
 

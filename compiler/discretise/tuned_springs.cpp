@@ -248,15 +248,10 @@ void TunedSprings::pay_while_old_forces_act(SpringNames& spring) {
                writer_.divide(writer_.multiply(writer_.multiply(two(), next), writer_.subtract(k, next)), k));
   const ExpressionId cost =
       local_of(joined(spring.name, "energy_missing"), "J", writer_.divide(writer_.multiply(short_of, short_of), twice));
-  const ExpressionId unpaid = local_of(joined(spring.name, "energy_unpaid"), "J", writer_.subtract(cost, tank));
   const ExpressionId paid =
       local_of(joined(spring.name, "force_paid"), writer_.force(), writer_.square_root(writer_.multiply(twice, tank)));
   const ExpressionId most = writer_.add(read(spring.kept), writer_.where(f, paid, writer_.multiply(minus_one(), paid)));
-  const VariableId result = local(joined(spring.name, "force_after"), writer_.force(),
-                                  writer_.where(differs, writer_.where(unpaid, most, f), read(spring.kept)),
-                                  "F as before, as far as the energy in the tank allows");
-  assign(tank_, writer_.where(differs, writer_.where(unpaid, zero(), writer_.subtract(tank, cost)), tank), "");
-  spring.kept = result;
+  raise_force(spring, differs, cost, most);
 }
 
 // Raises the kept force towards F as far as the energy in the tank allows.
@@ -272,12 +267,17 @@ void TunedSprings::pay_for_the_rest(SpringNames& spring) {
   const ExpressionId differs =
       local_of(joined(spring.name, "falls_short"), writer_.force(),
                writer_.where(next, size_of(writer_.subtract(kept, f), joined(spring.name, "force_short")), zero()));
+  raise_force(spring, differs, cost, writer_.where(f, most, writer_.multiply(minus_one(), most)));
+}
+
+// Where `differs` is above 0, to F if the tank has the energy that this costs, else to the most that it pays for.
+void TunedSprings::raise_force(SpringNames& spring, ExpressionId differs, ExpressionId cost, ExpressionId most) {
+  const ExpressionId f = read(spring.force), kept = read(spring.kept), tank = read(tank_);
   const ExpressionId unpaid = local_of(joined(spring.name, "energy_unpaid"), "J", writer_.subtract(cost, tank));
-  const ExpressionId signed_most = writer_.where(f, most, writer_.multiply(minus_one(), most));
   const VariableId result = local(joined(spring.name, "force_after"), writer_.force(),
-                                  writer_.where(differs, writer_.where(unpaid, signed_most, f), kept),
+                                  writer_.where(differs, writer_.where(unpaid, most, f), kept),
                                   "F as before, as far as the energy in the tank allows");
-  assign(tank_, writer_.where(differs, writer_.where(unpaid, zero(), writer_.subtract(tank, cost)), read(tank_)), "");
+  assign(tank_, writer_.where(differs, writer_.where(unpaid, zero(), writer_.subtract(tank, cost)), tank), "");
   spring.kept = result;
 }
 

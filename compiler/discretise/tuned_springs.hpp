@@ -103,6 +103,7 @@ class TunedSprings {
   void keep_what_it_can(SpringNames& spring);
   void pay_for_the_rest(SpringNames& spring);
   void pay_while_old_forces_act(SpringNames& spring);
+  void raise_force(SpringNames& spring, ExpressionId differs, ExpressionId cost, ExpressionId most);
   void keep_force(SpringNames& spring);
   void soften(SpringNames& spring);
   void find_stiffest_share();

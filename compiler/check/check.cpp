@@ -382,7 +382,8 @@ std::pair<int, std::string> verdict(const std::string& header, const std::string
   Device device = all.at("loop");
   const nlohmann::json taken = device;  // by the library, which cuts and wraps numbers
   for (const auto& [key, value] : taken.items())
-    if (all.at("loop").at(key) != value) throw Unknown("\"" + key + "\" is not of its kind");
+    if (all.at("loop").at(key) != value)
+      throw Unknown("\"" + key + "\" is not a number of the kind that belongs there");
   const auto number = [&](const char* at) { return Rational(all.at(nlohmann::json::json_pointer(at)).get<double>()); };
   const bool is_punctual = passivity.at("constant_period_only"), is_certified = passivity.at("certified");
   if (is_punctual) device.jitter = 0, device.write_earliest = device.write_latest;

@@ -32,7 +32,7 @@ struct Tail {
   double error;
 };
 
-// What the third of three sums has more than the first two give; 0 of a tail too far out for numbers.
+// Σk x² − (Σk x)²/Σk of a tail, from its three sums; 0 where it is so far out that they underflow.
 double spread(double sum, double first, double second) { return sum > 0 ? second - first * first / sum : 0; }
 
 // `x` is the first point left out, ln λ.

@@ -48,7 +48,8 @@ TEST(SpringpotLadder, HasTheKnownValues) {
   EXPECT_NEAR(largest_error(ladder, 0.5, 0.01, 100), 3.295e-3, 1e-6);
 }
 
-// Without an end if a grid is tried whose tails are too small for numbers, as wide bands lead to.
+// Runs for ever if the search for a step tries a grid whose tails are too small for a double, and takes their error for
+// the least. That happens over wide bands.
 TEST(SpringpotLadder, IsFoundOverTheWidestBands) {
   for (const double exponent : {0.01, 0.5, 0.99})
     for (const double width : {1e9, 1e15, 1e24})

@@ -214,7 +214,8 @@ TEST(Set, PaysForEachSpringOnce) {
         "K1": { "value": 200, "tunable": true, "min": 5, "max": 2000 },
         "K2": { "value": 600, "tunable": true, "min": 5, "max": 2000 },
         "K3": { "value": 600, "tunable": true, "min": 0, "max": 2000 } },
-        "network": { "parallel": [ { "series": [ { "spring": "K1" }, { "spring": "K2" } ] }, { "spring": "K3" } ] } })"),
+        "network": { "parallel": [ { "series": [ { "spring": "K1" }, { "spring": "K2" } ] },
+                                   { "spring": "K3" } ] } })"),
                         {}, device, diagnostics);
   ASSERT_TRUE(compiled);
   Law law(compiled->law);

@@ -49,6 +49,21 @@ class C99Response(unittest.TestCase):
                         ran = self.ran(network.stem, compiler)
                         self.assertEqual((ran.returncode, ran.stdout), (0, f"{network.stem}: passed\n"))
 
+    def test_name_of_a_network_is_free(self):
+        """Fails if a network cannot be called what the test of it calls something of its own."""
+        network = SOURCE / "networks/paper/second_order_maxwell.json"
+        self.written(network, "--name", "plain")
+        text = (self.folder / "plain_test.c").read_text()
+        declared = re.findall(r"\b(?:double|int|scalar|test_law|void) \*?([a-z]\w*)", text)
+        own = {name for name in declared if not re.match("plain|test_|(main|scalar|force|velocity)$", name)}
+        self.assertGreater(own, {"ramp", "rate", "value", "law"})
+        for name in sorted(own):
+            with self.subTest(name=name):
+                self.written(network, "--name", name)
+                built = subprocess.run([COMPILERS[0], "-std=c99", "-fsyntax-only", "-Werror",
+                                        self.folder / f"{name}_test.c"], capture_output=True, text=True)
+                self.assertEqual(built.returncode, 0, built.stderr)
+
     def test_wrong_law_fails(self):
         """Fails if the test passes for a law whose numbers are off by some millionths, one at a time."""
         name = "second_order_maxwell"

@@ -27,17 +27,20 @@ constexpr double some_more = 1 + 1e-9;  // than what is needed, which is rounded
 constexpr double noticeably = 0.9;      // of an error, what is worth another choice [1]
 constexpr double ruinous = 0.5;         // of the network's force: what errs by so much feels like something else [1]
 
-// What makes a loop late, in the words of the file without it.
+// What makes a loop late, and a device without it in words.
 struct Lateness {
-  const char* words_without;
+  const char* without_it;
   void (*leave_out)(device_description&);
 };
 
-const Lateness amplifier_lag{"no \"amplifier_lag\"", [](device_description& d) { d.motor.amplifier_lag = 0; }};
-const Lateness loop_delay{"no \"delay_samples\"", [](device_description& d) { d.loop.delay_samples = 0; }};
-const Lateness write_delay{"no \"write_delay\"",
+const Lateness amplifier_lag{"its motor's amplifier had no lag (\"amplifier_lag\")",
+                             [](device_description& d) { d.motor.amplifier_lag = 0; }};
+const Lateness loop_delay{"its loop had no delay (\"delay_samples\")",
+                          [](device_description& d) { d.loop.delay_samples = 0; }};
+const Lateness write_delay{"its commands acted at once (\"write_delay\")",
                            [](device_description& d) { d.loop.write_earliest = d.loop.write_latest = 0; }};
-const Lateness limited_slew{"no \"slew\"", [](device_description& d) { d.motor.slew = 0; }};
+const Lateness limited_slew{"its motor's force could change at once (\"slew\")",
+                            [](device_description& d) { d.motor.slew = 0; }};
 
 // The network compiled on another device, or another network on the same: whatever is recommended has been tried.
 std::optional<Compilation> compiled(const Network& network, Choices choices, const Device& device) {
@@ -56,10 +59,10 @@ struct WorstError {
 WorstError felt_error(const Compilation& c) {
   const double in_band = c.decomposition.choice().largest_error, in_runs = c.decomposition.slips.error;
   if (c.decomposition.slips.merits.empty()) return {in_band, ""};
-  return in_runs > in_band ? WorstError{in_runs, " in runs around yield"} : WorstError{in_band, " in the band"};
+  return in_runs > in_band ? WorstError{in_runs, " where slips yield"} : WorstError{in_band, " in the band"};
 }
 
-// "77.5 % in runs around yield"
+// "77.5 % where slips yield"
 std::string in_words(const WorstError& error) { return in_percent(error.share) + " %" + error.where; }
 
 // What has been tried and is certified.
@@ -293,7 +296,7 @@ class Remedies {
 
   static std::string joined(const std::vector<Lateness>& left_out) {
     std::string words;
-    for (const Lateness& one : left_out) words += (words.empty() ? "" : " and ") + std::string(one.words_without);
+    for (const Lateness& one : left_out) words += (words.empty() ? "" : " and ") + std::string(one.without_it);
     return words;
   }
 
@@ -383,7 +386,7 @@ bool add_slew(const Compilation& c, const Remedies& remedies, RemedyNotes& notes
   if (slew)
     notes.add<DiagnosticCode::slew_that_would_do>(
         slew->error, slew->value, std::string(port_units(c.device->description.motion).force), motor.slew);
-  if (without) notes.add<DiagnosticCode::prompt_loop_that_would_do>(*without, std::string(limited_slew.words_without));
+  if (without) notes.add<DiagnosticCode::prompt_loop_that_would_do>(*without, std::string(limited_slew.without_it));
   return slew || without;
 }
 
@@ -400,7 +403,7 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
   const auto add_without = [&](const std::vector<Lateness>& left_out) {
     const auto damping = remedies.own_damping(left_out);
     if (!damping) return false;
-    const std::string besides = left_out.empty() ? "" : " with " + Remedies::joined(left_out);
+    const std::string besides = left_out.empty() ? "" : " if " + Remedies::joined(left_out);
     if (remedies.at_joint(damping->value) > own)
       notes.add<DiagnosticCode::own_damping_that_would_do>(damping->error, damping->value, at_tool,
                                                            remedies.at_tool(own), besides,
@@ -524,10 +527,9 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
   const auto [needed_words, available_words] = told_apart(certificate.bound.needed, available);
   diagnostics.report<DiagnosticCode::not_certified>(
       c.network.name_span, c.network.name, needed_words, port_units(c.network.port_motion).damping, c.device->name,
-      c.law.tunable
-          ? fmt::format("where at least {} is sure with the values that ask least of the brake", available_words)
-          : fmt::format("which gives at least {}{}", available_words,
-                        loop.max_damping > 0 ? " with all of its brake" : ""));
+      c.law.tunable ? fmt::format("for some values of the parameters only {} is guaranteed", available_words)
+                    : fmt::format("only {} is guaranteed{}", available_words,
+                                  loop.max_damping > 0 ? ", even with the brake at its maximum" : ""));
   if (diagnostics.wants_advice()) notes_on_remedies(c, choices, available, of_regimes).tell(diagnostics);
   diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return false;
@@ -719,7 +721,7 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
       return diagnostics.note<DiagnosticCode::errs_less_with_a_brake>(
           {}, again->port.max_damping().value_or(0), units.damping, brake, in_percent(*error.of(*again)));
   }
-  diagnostics.note<DiagnosticCode::errs_less_nowhere>({}, own > 0 ? "up to 16 times its brake" : "a brake");
+  diagnostics.note<DiagnosticCode::errs_less_nowhere>({}, own > 0 ? "a brake up to 16 times as strong" : "a brake");
 }
 
 }  // namespace

@@ -123,7 +123,9 @@ std::string check_decomposition(const std::string& text) {
 
 void add_choices(CLI::App& command, CommandLine& line) {
   Choices& choices = line.options.choices;
-  command.add_option("--name", line.options.name, "Of the network, and so of what is emitted; default its own")
+  command
+      .add_option("--name", line.options.name,
+                  "Name of the network and of the emitted class, default the name in the file")
       ->option_text("NAME");
   command
       .add_option("--set", line.options.set,
@@ -140,12 +142,16 @@ void add_choices(CLI::App& command, CommandLine& line) {
       ->check(CLI::IsMember({"auto", "position", "velocity", "nodal"}))
       ->option_text("auto|position|velocity|nodal");
   command
-      .add_option("--decomposition", line.decomposition,
-                  "What the brake takes over, default faithful on a device and with slips, else paper. With two axes "
-                  "diagonal, the default there, non-injecting or virtual, or for the ports faithful or paper")
+      .add_option(
+          "--decomposition", line.decomposition,
+          "What the brake takes over, default faithful on a device and with slips, else paper. With two axes a rule "
+          "for the brakes (diagonal, the default, non-injecting or virtual) or for each port (faithful or "
+          "paper)")
       ->check(check_decomposition)
       ->option_text("NAME|DAMPING (" + CLI::detail::join(decompositions) + ", or a number in SI)");
-  command.add_option("--tolerance", line.tolerance, "What 'faithful' may let the felt force err by, default 5 %")
+  command
+      .add_option("--tolerance", line.tolerance,
+                  "Largest deviation of the felt force that 'faithful' allows, default 5 %")
       ->check(check_tolerance)
       ->option_text("SHARE");
   command.add_option("--scalar", line.scalar, "Type of the emitted numbers, default double")
@@ -166,7 +172,7 @@ CLI::App* add_command(CLI::App& app, CommandLine& line, const char* name, const 
 
 void add_advice(CLI::App& command, CommandLine& line) {
   command.add_flag("--no-advice", line.options.without_advice,
-                   "Say what is wrong, without the search for what would help, which compiles many times");
+                   "Tell errors and warnings only, without the search for remedies, which compiles many times");
 }
 
 void add_networks(CLI::App& command, CommandLine& line, bool several) {
@@ -179,7 +185,9 @@ void add_reading(CLI::App& command, FitWords& fit) {
   command.add_option("--columns", fit.columns, "Which column is what: ROLE=[-]NAME[+NUMBER][:UNIT],…")
       ->option_text("time=T:s,position=X:mm,force=F:N");
   command.add_flag("--no-header", fit.no_header, "Columns have no names: --columns takes their numbers");
-  command.add_option("--geometry", fit.geometry, "From stress and strain to a tool")
+  command
+      .add_option("--geometry", fit.geometry,
+                  "Geometry that turns stress and strain into force and displacement of a tool")
       ->option_text("column|shear|punch|sphere|needle:KEY=LENGTH,…");
 }
 
@@ -190,43 +198,48 @@ void describe_fit(CLI::App& app, CommandLine& line) {
       ->required()
       ->expected(-1);
   command->add_option("-o,--output", line.options.output, "Network file to write")->option_text("FILE.json");
-  command->add_option("--report", fit.report, "Page to write: data, model, what is left, spectrum")
+  command->add_option("--report", fit.report, "Page to write: data, model, residual, spectrum")
       ->option_text("FILE.html");
   command->add_flag("--json", fit.json, "As JSON, SI units");
-  command->add_option("--name", fit.name, "Of the network, default that of its file")->option_text("NAME");
-  command->add_option("--title", fit.title, "Of the network, default how many recordings")->option_text("TEXT");
+  command->add_option("--name", fit.name, "Name of the network, default that of its file")->option_text("NAME");
+  command->add_option("--title", fit.title, "Title of the network, default the number of recordings")
+      ->option_text("TEXT");
   command->add_option("--source", fit.source, "Where the recordings are from, for the network's source")
       ->option_text("TEXT");
   add_reading(*command, fit);
-  command->add_option("--scale", fit.scale, "What 1 stands for in values without a unit")->option_text("QUANTITY");
+  command->add_option("--scale", fit.scale, "Quantity that a value of 1 without a unit stands for")
+      ->option_text("QUANTITY");
   command->add_flag("--relaxation", fit.relaxation, "Stiffness or modulus over the time since a step of position");
   command->add_flag("--creep", fit.creep, "Compliance over the time since a step of force");
   command->add_option("--control", fit.control, "What the machine controlled, default position")
       ->check(CLI::IsMember({"position", "force"}))
       ->option_text("position|force");
-  command->add_option("--weight", fit.weight, "Of rows, default uniform, of a spectrum relative")
+  command->add_option("--weight", fit.weight, "Weighting of rows, default uniform, of a spectrum relative")
       ->check(CLI::IsMember({"auto", "uniform", "relative", "deviation"}))
       ->option_text("uniform|relative|deviation");
-  command->add_option("--start", fit.start, "Where it was at rest before the first row")
+  command->add_option("--start", fit.start, "State before the first row: at rest there, at rest at 0, or moving")
       ->check(CLI::IsMember({"auto", "rest", "zero", "moving"}))
       ->option_text("auto|rest|zero|moving");
   command->add_flag("--tare", fit.tare, "Fit an offset of the force of each recording");
   command->add_option("--contact", fit.contact, "Where the surface lies; find looks for it")
       ->option_text("find|POSITION");
-  command->add_option("--force-delay", fit.force_delay, "By which the force was recorded late")->option_text("TIME");
-  command->add_option("--slips", fit.slips, "Springs behind slips, default none")->option_text("none|auto|viscous|N");
+  command->add_option("--force-delay", fit.force_delay, "Delay of the recorded force")->option_text("TIME");
+  command->add_option("--slips", fit.slips, "Springs in series with slips, default none")
+      ->option_text("none|auto|viscous|N");
   command->add_option("--springpots", fit.springpots, "Springpots, default none")
       ->check(CLI::IsMember({"none", "auto"}))
       ->option_text("none|auto");
-  command->add_option("--shape", fit.shape, "A static curve in front of the network, default none")
+  command->add_option("--shape", fit.shape, "Static curve of the network, default none")
       ->check(CLI::IsMember({"none", "power", "exponential", "table", "auto"}))
       ->option_text("none|power|exponential|table|auto");
-  command->add_flag("--elastic", fit.elastic, "One spring, and nothing that relaxes");
-  command->add_flag("--gain-per-file", fit.gain_per_file, "Specimens that differ by a factor");
-  command->add_option("--modes", fit.modes, "So many relaxations, instead of those with the least BIC")
+  command->add_flag("--elastic", fit.elastic, "One spring alone");
+  command->add_flag("--gain-per-file", fit.gain_per_file,
+                    "Fit a gain for each file, for specimens that differ by a factor");
+  command->add_option("--modes", fit.modes, "Number of relaxations, instead of the one with the least BIC")
       ->check(CLI::Range(0, 1000))
       ->option_text("N");
-  command->add_option("--tolerance", fit.tolerance, "The fewest elements that leave so little, relative")
+  command
+      ->add_option("--tolerance", fit.tolerance, "Take the fewest elements whose relative error is no more than this")
       ->option_text("1%");
   command->add_option("--hold-out", fit.hold_out, "Recordings that are predicted and not fitted")
       ->expected(-1)
@@ -267,14 +280,14 @@ void describe_exchange(CLI::App& app, CommandLine& line) {
   CLI::App* in = add_command(app, line, "import", "Make a network of a finite-element program's Prony series");
   in->add_option("FILE", line.options.input, "Input deck, material file or table")->required();
   add_format(*in, line, "--from", "What wrote the file");
-  in->add_option("--stiffness", words.stiffness, "That the file's weights are shares of, as \"1.2 kN/m\"");
-  in->add_option("--modulus", words.modulus, "What a modulus of 1 in the file is as a stiffness, as \"24 mN/m\"");
-  in->add_option("--of", words.of, "generic: the stiffness that the weights are shares of")
+  in->add_option("--stiffness", words.stiffness, "Stiffness that the file's weights are fractions of, as \"1.2 kN/m\"");
+  in->add_option("--modulus", words.modulus, "Stiffness that a modulus of 1 in the file stands for, as \"24 mN/m\"");
+  in->add_option("--of", words.of, "generic: the stiffness that the weights are fractions of")
       ->transform(named_number(conventions))
       ->option_text("instantaneous|long-term|absolute");
   in->add_option("--material", words.material, "Name or number of the material, where the file has several");
-  in->add_option("--time-unit", words.time_unit, "Of the file's times, default s");
-  in->add_option("--name", words.name, "Of the network, default after the file");
+  in->add_option("--time-unit", words.time_unit, "Unit of the file's times, default s");
+  in->add_option("--name", words.name, "Name of the network, default after the file");
   in->add_option("-o,--output", line.options.output, "File to write to, default standard output")
       ->option_text("FILE.json");
 
@@ -300,14 +313,18 @@ void describe_device(CLI::App& app, CommandLine& line) {
       device->add_option("--pole-length", blade.pole_length, "Pole across the motion"),
       device->add_option("--pole-width", blade.pole_width, "Pole along the motion"),
       device->add_option("--field", blade.field, "Magnetic field in the gap, as \"1 T\"")};
-  device->add_option("--resistivity", blade.resistivity, "Of the blade, default that of aluminium, \"28.2 nohm m\"")
+  device
+      ->add_option("--resistivity", blade.resistivity,
+                   "Resistivity of the blade, default that of aluminium, \"28.2 nohm m\"")
       ->needs(needed[0]);
   device
       ->add_option("--correction", blade.correction,
                    "Alpha of the eddy currents' return path, default by the pole's shape")
       ->needs(needed[0])
       ->check(CLI::Range(0.0, 1.0));
-  device->add_option("--radius", blade.radius, "Of the blade's middle, default the device's arm_radius")
+  device
+      ->add_option("--radius", blade.radius,
+                   "Distance of the pole from the axis of rotation, default the device's arm_radius")
       ->needs(needed[0]);
   device
       ->add_option("--current", blade.current,
@@ -326,7 +343,8 @@ void describe(CLI::App& app, CommandLine& line) {
   CLI::App* check =
       add_command(app, line, "check", "Report errors and warnings of networks, devices, motions and recordings");
   check->footer(
-      "The program dashpot-check, with a hyphen, is another: it decides what a certificate states of a header.");
+      "The program dashpot-check, with a hyphen, is a separate one: it checks independently what a certificate states "
+      "of a header.");
   check->add_option("FILE", options.networks, "Network or device files, or tables")->required()->expected(-1);
   add_choices(*check, line);
   add_advice(*check, line);
@@ -343,8 +361,7 @@ void describe(CLI::App& app, CommandLine& line) {
       ->check(CLI::IsMember({"kelvin", "maxwell", "prony"}))
       ->option_text("kelvin|maxwell|prony");
 
-  CLI::App* compile =
-      add_command(app, line, "compile", "Write the update law as C++, C99 or what else a target makes of it");
+  CLI::App* compile = add_command(app, line, "compile", "Write the update law as C++, as C99 or for another target");
   add_networks(*compile, line, true);
   add_choices(*compile, line);
   add_advice(*compile, line);
@@ -372,7 +389,7 @@ void describe(CLI::App& app, CommandLine& line) {
       ->option_text("FILE.v");
   compile->add_option("--depfile", options.depfile, "Also write a makefile of what the output depends on")
       ->option_text("FILE");
-  compile->add_option("--timings", options.timings, "Say on standard error what each stage took")
+  compile->add_option("--timings", options.timings, "Print on standard error the time of each stage")
       ->check(CLI::IsMember({"text", "json"}))
       ->option_text("text|json");
   compile->add_option("--print", options.print, "Print a stage and write nothing")
@@ -392,10 +409,10 @@ void describe(CLI::App& app, CommandLine& line) {
   simulate->footer(
       "Columns of the output, in SI:\n"
       "  force        on the tool, against its motion: what brake and motor make together\n"
-      "  damping      what the brake is told\n"
-      "  motor_force  what the motor is told: force - damping * velocity");
+      "  damping      command to the brake\n"
+      "  motor_force  command to the motor: force - damping * velocity");
   simulate->add_flag("--batch", options.emission.batch,
-                     "As what compile --batch writes, which keeps out of the subnormals at each sample");
+                     "Compute as the class of compile --batch does, which sets tiny states to zero in each sample");
   simulate->add_option("-o,--output", options.output, "File to write to, default standard output")
       ->option_text("FILE.csv");
 
@@ -408,8 +425,7 @@ void describe(CLI::App& app, CommandLine& line) {
   add_advice(*report, line);
   report->add_option("-o,--output", options.output, "File to write to")->required()->option_text("FILE.html");
 
-  CLI::App* verify =
-      add_command(app, line, "verify", "Check a header against its certificate, and that against its network");
+  CLI::App* verify = add_command(app, line, "verify", "Check a header and its certificate against the network");
   verify->add_option("CERTIFICATE", options.certificate, "Written by compile --certificate")->required();
   verify->add_option("HEADER", options.header, "Emitted with it")->required();
   verify->add_flag("--allow-uncertified", options.allow_uncertified,
@@ -434,25 +450,25 @@ void describe(CLI::App& app, CommandLine& line) {
          "Who moves the simulated device, default relaxed: a hand that means to swing by 10 mm or 0.2 rad at 0.5 Hz")
       ->check(CLI::IsMember({"none", "relaxed", "firm", "stiff"}))
       ->option_text("none|relaxed|firm|stiff");
-  run->add_option("--seed", options.seed, "Of the simulated device's chance, default 0")
+  run->add_option("--seed", options.seed, "Seed of the simulated device's random numbers, default 0")
       ->check(check_seed)
       ->option_text("N");
   run->add_flag("--fast", options.fast, "Simulated time: as fast as the machine allows, with --for");
-  run->add_option("-o,--log", options.output, "Telemetry, or what is felt of a motion, default NAME_run.csv")
+  run->add_option("-o,--log", options.output, "Telemetry or, with --motion, the felt forces, default NAME_run.csv")
       ->option_text("FILE.csv");
   run->add_option("--motion", options.motion,
-                  "Lead the simulated device along a recorded motion, time,position or time,q1,q2 at any uniform "
-                  "period, and compare what is felt with the network")
+                  "Move the simulated device along a recorded motion, time,position or time,q1,q2 at any uniform "
+                  "period, and compare the felt force with the network's")
       ->option_text("FILE.csv");
   run->add_flag("--json", options.json, "With --motion: the errors as JSON, SI units");
 
   CLI::App* shell = app.add_subcommand(command_of_completion, "Print a script that completes command lines in a shell");
-  shell->add_option("SHELL", line.shell, "That the script is for")
+  shell->add_option("SHELL", line.shell, "Shell to write the script for")
       ->required()
       ->check(CLI::IsMember(shells))
       ->option_text(CLI::detail::join(shells, "|"));
   app.add_subcommand(command_of_manual, "Print a manual page, for man -l -")
-      ->add_option("COMMAND", line.page_about, "That the page is about, default dashpot itself")
+      ->add_option("COMMAND", line.page_about, "Command that the page is about, default dashpot itself")
       ->option_text("COMMAND");
 }
 

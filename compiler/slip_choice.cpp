@@ -91,9 +91,9 @@ class SlipChooser {
     for (const SlipOption& option : options_) slips.merits.push_back(option.merit);
     if (options_.size() == 1) return with_reasons(std::move(slips), "");
     const std::string reason = fmt::format(
-        "the largest brake, {:.3g} {} on average, of the laws that err by no more than {:.3g} % in a run: "
-        "{:.3g} %",
-        best.merit.mean_damping, port_units(best.made.network.port_motion).damping, 100 * limit_,
+        "of the slip rules with an error of up to {:.3g} %, the one with the largest mean damping of the brake, "
+        "{:.3g} {}; its error is {:.3g} %",
+        100 * limit_, best.merit.mean_damping, port_units(best.made.network.port_motion).damping,
         100 * best.merit.error());
     return with_reasons(std::move(slips), reason);
   }

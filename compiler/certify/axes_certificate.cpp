@@ -241,8 +241,8 @@ std::string uncovered_in_ports(const std::vector<CertifiedPort>& ports, const Ax
     if (varies(port)) return of_port + "its damping changes with its slips, which no bound of two axes covers yet";
     if (!port.slips || !late) continue;
     if (port.slips->lets_go_by_estimate)
-      return of_port + "the contact lets go by a velocity estimate, and " + why_late(*late);
-    if (!port.slips->springs_alone) return of_port + "dampers are behind its slips, and " + why_late(*late);
+      return of_port + "the end of the contact is computed from the estimated velocity, and " + why_late(*late);
+    if (!port.slips->springs_alone) return of_port + "dampers are in the parts with slips, and " + why_late(*late);
   }
   return "";
 }
@@ -627,17 +627,18 @@ std::vector<std::string> curl_lines(const AxesCertificate& c, const AxesDevice& 
             ? ""
             : fmt::format(", {:.3g} % at least, at ({:.4g}, {:.4g}) mm", 100 * passage.least,
                           in_millimetres(passage.least_at[0]), in_millimetres(passage.least_at[1]));
-    return {
-        fmt::format("  the field turns: what couples the brakes' directions is made by the motors, behind a gate "
-                    "that lets pass what the brakes' own share of the field pays for: {:.3g} % of it in the mean "
-                    "over the {}{}, while the tool goes slowly",
-                    100 * passage.mean, device.workspace[0].width() > 0 ? "workspace" : "field", least)};
+    return {fmt::format(
+        "  the field pushes across the motion: the motors make that part, and a torque limiter (gate) keeps it to "
+        "what the brakes' own share of the field dissipates: {:.3g} % of it on average over the {}{}, while "
+        "the tool moves slowly",
+        100 * passage.mean, device.workspace[0].width() > 0 ? "workspace" : "field", least)};
   }
   if (c.why_no_gate.empty()) return {};
-  return {
-      fmt::format("  the field turns: the motors make that in full, and damping that is added for estimates pays for "
-                  "it; no gate lets the brakes' own share of the field pay, since {}",
-                  c.why_no_gate)};
+  return {fmt::format(
+      "  the field pushes across the motion: the motors make that part in full, and damping that is added for "
+      "estimated velocities pays for it; no torque limiter (gate) keeps it to what the brakes dissipate, "
+      "because {}",
+      c.why_no_gate)};
 }
 
 // Empty where no motor has a limit.
@@ -659,23 +660,25 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
   }
   if (!std::isfinite(c.missing)) return {"passivity: not certified, since " + why_not_certified(c, device)};
   std::vector<std::string> lines;
-  lines.push_back(fmt::format(
-      "passivity: {}: what the motors hold from one sample to the next needs {} of damping at the joints; their own "
-      "damping{} {} of it to be added, most at ({:.4g}, {:.4g}) mm",
-      c.certified ? "certified for any motion in the workspace, while the motors make their torques"
-                  : "not certified, since " + why_not_certified(c, device),
-      at_joints(c.needed, c, device), c.gate ? " leaves" : " and the brakes' share of the network's leave",
-      at_joints(c.missing, c, device), in_millimetres(c.worst[0]), in_millimetres(c.worst[1])));
+  lines.push_back(
+      fmt::format("passivity: {}: the torques that the motors hold from one sample to the next need {} of damping at "
+                  "the joints; after "
+                  "the joints' own damping{}, {} of it are still missing, most at ({:.4g}, {:.4g}) mm",
+                  c.certified ? "certified for any motion in the workspace, as long as no motor is at its limit"
+                              : "not certified, since " + why_not_certified(c, device),
+                  at_joints(c.needed, c, device), c.gate ? "" : " and the brakes' share of the network's",
+                  at_joints(c.missing, c, device), in_millimetres(c.worst[0]), in_millimetres(c.worst[1])));
   if (const std::string limits = limits_of_motors(device); !limits.empty())
-    lines.push_back("  the motors make up to " + limits +
-                    "; where the law asks for more each makes what it can, nothing is proved, and energy may come out: "
-                    "'dashpot run' says in how many samples");
-  if (c.for_estimates > 0)
     lines.push_back(
-        fmt::format("  of what is needed, {} are for what the motors make of estimated velocities, however late",
-                    at_joints(c.for_estimates, c, device)));
+        "  the motors make up to " + limits +
+        "; where the law asks for more, each makes what it can, nothing is proved, and the hand may get energy: "
+        "'dashpot run' says in how many samples");
+  if (c.for_estimates > 0)
+    lines.push_back(fmt::format(
+        "  {} of the needed damping are for torques computed from estimated velocities, however late these are",
+        at_joints(c.for_estimates, c, device)));
   if (c.for_lag > 0)
-    lines.push_back(fmt::format("  of what is needed, {} are for {}", at_joints(c.for_lag, c, device),
+    lines.push_back(fmt::format("  {} of the needed damping are for {}", at_joints(c.for_lag, c, device),
                                 device.loop().write_latest > 0 ? "torques that come after their samples"
                                                                : "the lag of the motors' amplifiers"));
   const std::vector<std::string> of_curl = curl_lines(c, device);
@@ -685,13 +688,13 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
   for (std::size_t k = 0; k < c.added.size(); ++k) added += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", c.added[k]);
   if (c.share)
     lines.push_back(
-        fmt::format("  where the motors make damping from velocity estimates, no delay that both joints share costs "
-                    "passivity in {:.3g} % of the workspace",
+        fmt::format("  in {:.3g} % of the workspace, the damping that the motors make from velocity estimates stays "
+                    "passive for any "
+                    "delay that both joints share",
                     100 * c.share->delay_proof));
   if (c.adds())
-    lines.push_back(
-        fmt::format("  added to the brakes' commands for it: {} {}{}; felt at the tip: up to {:.3g} N s/m more", added,
-                    unit, c.certified ? "" : ", all that they can give", c.added_at_tip));
+    lines.push_back(fmt::format("  added to the brakes' commands: {} {}{}; felt at the tip as up to {:.3g} N s/m more",
+                                added, unit, c.certified ? "" : ", all that they can give", c.added_at_tip));
   return lines;
 }
 

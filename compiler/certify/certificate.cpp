@@ -164,7 +164,8 @@ PassivityBound with_slips(PassivityBound bound, const SlipMotor& slips, const Sa
     return not_proved(
         "the motor's slew is limited, and its force jumps where a slip gives way or a contact begins or ends");
   if (slips.lets_go_by_estimate && loop.is_late())
-    return not_proved(std::string("the contact lets go by a velocity estimate, and ") + why_late(loop));
+    return not_proved(std::string("the end of the contact is computed from the estimated velocity, and ") +
+                      why_late(loop));
   if (loop.amplifier_lag > 0) {
     bound.proof = Proof::sampled;
     bound.reason = "the amplifier lags";

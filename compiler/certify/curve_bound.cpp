@@ -42,17 +42,17 @@ double flattest_within(const MotionMap& map, double from, double to) {
 
 std::string hindrance(bool estimate_drives_modes, const std::optional<SlipMotor>& slips, const SampledLoop& tool) {
   if (estimate_drives_modes || (slips && slips->held_compensation > 0))
-    return "the estimated velocity moves the law's states, and of that nothing is proved behind a static curve";
+    return "the estimated velocity moves the law's states, and no proof covers that with a static curve";
   if (tool.may_overtake()) return overtaken;
-  if (slips && tool.amplifier_lag > 0) return "the amplifier lags, and slips or a contact lie behind a static curve";
+  if (slips && tool.amplifier_lag > 0)
+    return "the amplifier lags, and there are slips or a contact with a static curve";
   if (slips && tool.write_latest > 0)
-    return "commands act later than their samples, and slips or a contact lie behind a static curve";
-  if (tool.motor_slew > 0) return "the motor's slew is limited, and its force lies behind a static curve";
+    return "commands act later than their samples, and there are slips or a contact with a static curve";
+  if (tool.motor_slew > 0) return "the motor's slew is limited, and there is a static curve";
   if (!tool.has_device)
     return "a static curve's steepness changes while the tool moves, and no device states how fast that is";
   if (tool.tool_speed == 0) return "the device states no largest speed, and a static curve's steepness changes with it";
-  if (tool.travel == 0)
-    return "the device states no range of its encoder, and forces behind a static curve grow with it";
+  if (tool.travel == 0) return "the device states no range of its encoder, and forces with a static curve grow with it";
   return "";
 }
 
@@ -261,7 +261,7 @@ MotorLimits limits_behind_curve(const SampledLoop& tool, const Certificate& cert
   limits.rule = LimitRule::sheds;
   limits.unbounded = Unbounded::curve;
   limits.needed = certificate.bound.needed;
-  if (!certificate.certified) limits.reason = "nothing is proved of it within the limit either";
+  if (!certificate.certified) limits.reason = "passivity is not proved below the limit either";
   else if (tool.is_late()) limits.reason = std::string("its forces lie behind a static curve, and ") + why_late(tool);
   limits.is_covered = limits.reason.empty();
   return limits;

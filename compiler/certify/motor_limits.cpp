@@ -57,9 +57,10 @@ Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& sli
   // The brake's own excess covers what a ramp takes back, as long as both act on the same hold.
   add_estimate(slips->compensation + (is_late ? slips->held_compensation : 0), loop, gains);
   if (is_late && !slips->springs_alone)
-    gains.hindrance = fmt::format("dampers are behind the slips, and {}", why_late(loop));
+    gains.hindrance = fmt::format("dampers are in the parts with slips, and {}", why_late(loop));
   if (is_late && slips->lets_go_by_estimate)
-    gains.hindrance = fmt::format("the contact lets go by an estimate, and {}", why_late(loop));
+    gains.hindrance =
+        fmt::format("the end of the contact is computed from the estimated velocity, and {}", why_late(loop));
   return gains;
 }
 
@@ -210,7 +211,7 @@ MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<d
   if (!loop.has_device || !(loop.max_force > 0 || loop.motor_slew > 0)) return limits;
   limits.rule = LimitRule::sheds;
   limits.unbounded = Unbounded::tunables;
-  if (!needed) limits.reason = "nothing is proved of it within the limit either";
+  if (!needed) limits.reason = "passivity is not proved below the limit either";
   else if (loop.motor_slew > 0) limits.reason = "its force may have to fall faster than the motor's slew";
   else if (loop.is_late()) limits.reason = fmt::format("its parameters change while it runs, and {}", why_late(loop));
   else limits.needed = *needed;
@@ -221,7 +222,7 @@ MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<d
 
 std::string why_not_covered(const MotorLimits& limits, const std::string& unit) {
   if (!limits.available) return limits.reason;
-  return fmt::format("there {:.6g} {} of damping are needed, which is counted sample by sample, and {:.6g} is there",
+  return fmt::format("by a proof sample by sample it needs {:.6g} {} of damping, and {:.6g} is guaranteed",
                      limits.needed, unit, *limits.available);
 }
 
@@ -231,11 +232,11 @@ std::string_view in_words(Unbounded why) {
   switch (why) {
     case Unbounded::nothing: return "";
     case Unbounded::no_range: return "the device file states no \"range\" of its encoder";
-    case Unbounded::estimate: return "it uses the velocity's estimate";
-    case Unbounded::contact: return "its contact lets go by the velocity's estimate";
-    case Unbounded::dampers: return "dampers are behind its slips";
+    case Unbounded::estimate: return "it uses the estimated velocity";
+    case Unbounded::contact: return "the end of its contact is computed from the estimated velocity";
+    case Unbounded::dampers: return "dampers are in its parts with slips";
     case Unbounded::tunables: return "its parameters change while it runs";
-    case Unbounded::curve: return "it lies behind a static curve";
+    case Unbounded::curve: return "it has a static curve";
   }
   return "";
 }
@@ -254,22 +255,22 @@ std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& 
   if (loop.max_force > 0 || limits.largest_force) lines.push_back("largest force: " + asked);
   if (limits.slew_needed || loop.motor_slew > 0)
     lines.push_back("slew: " +
-                    (limits.slew_needed
-                         ? fmt::format("{:.6g} {} follow any motion within range and speed", *limits.slew_needed, rate)
-                         : std::string("what would follow any motion is not known beforehand")) +
+                    (limits.slew_needed ? fmt::format("{:.6g} {} are enough for any motion within range and speed",
+                                                      *limits.slew_needed, rate)
+                                        : std::string("what would be enough for any motion is not known")) +
                     (loop.motor_slew > 0 ? fmt::format(", the motor has {:.6g} {}", loop.motor_slew, rate) : ""));
   if (limits.largest_discontinuity.value_or(0) > 0)
-    lines.push_back(
-        fmt::format("sudden loss: where a force of up to {:.6g} {} is to vanish at once, as in a puncture, the motor "
-                    "follows as fast as its slew lets it, and gives no energy",
-                    *limits.largest_discontinuity, units.force));
+    lines.push_back(fmt::format(
+        "sudden loss: where a force of up to {:.6g} {} vanishes at once, as in a puncture, the motor follows "
+        "as fast as its slew allows, without injecting energy",
+        *limits.largest_discontinuity, units.force));
   if (limits.rule == LimitRule::none) return lines;
   const char* does =
-      limits.rule == LimitRule::sheds ? "the law sheds, scaling all its forces down together" : "the motor clips";
+      limits.rule == LimitRule::sheds ? "the law scales all its forces down together" : "the motor clips";
   lines.push_back(limits.is_covered
-                      ? fmt::format("at the motor's limit: {}; this is passive with the {:.6g} {} that it needs", does,
+                      ? fmt::format("at the motor's limit: {}; that is passive with the {:.6g} {} that it needs", does,
                                     limits.needed, units.damping)
-                      : fmt::format("at the motor's limit: {}; that this is passive is not proved: {}", does,
+                      : fmt::format("at the motor's limit: {}; passivity is not proved there: {}", does,
                                     why_not_covered(limits, units.damping)));
   return lines;
 }

@@ -36,10 +36,9 @@ bool needs_no_more(const Candidate& candidate, const Candidate& choice) {
 // Without a device nothing errs. Behind slips another candidate may be given another law, which needs something else.
 std::string price_of(const Candidate& other, const Decomposition& decomposition) {
   const Candidate& choice = decomposition.choice();
-  const std::string alike =
-      decomposition.slips.all().empty() ? "" : ", if what is done behind the slips stays as it is chosen here";
+  const std::string alike = decomposition.slips.all().empty() ? "" : ", if the slip rules stay as they are chosen here";
   if (other.largest_error == 0 && choice.largest_error == 0) return alike;
-  return fmt::format(", and would err by {} % in place of {} %{}", in_percent(other.largest_error),
+  return fmt::format(", with a felt error of {} % instead of {} %{}", in_percent(other.largest_error),
                      in_percent(choice.largest_error), alike);
 }
 
@@ -57,7 +56,7 @@ std::optional<std::string> quieter_law(const SlipDecomposition& slips) {
   if (!chosen || !quietest || !chosen->motor_noise || !(*quietest->motor_noise < worthwhile * *chosen->motor_noise))
     return std::nullopt;
   return fmt::format(
-      "behind slips '{}' would bring {:.3g} % of the motor's noise, and err by {:.3g} % in place of {:.3g} %",
+      "the slip rule '{}' would reduce the motor's noise to {:.3g} %, with an error of {:.3g} % instead of {:.3g} %",
       name_of(quietest->law), 100 * *quietest->motor_noise / *chosen->motor_noise, 100 * quietest->error(),
       100 * chosen->error());
 }
@@ -75,7 +74,7 @@ std::vector<std::string> notes_on_choice(const Decomposition& decomposition, con
                                 port_units(network.port_motion).damping, price_of(*calmest, decomposition)));
   const Candidate* quietest = least(decomposition, &Candidate::motor_noise, needs_no_more);
   if (quietest && choice.motor_noise && *quietest->motor_noise < worthwhile * *choice.motor_noise)
-    notes.push_back(fmt::format("'{}' would need no more damping and bring {:.3g} % of the motor's noise{}",
+    notes.push_back(fmt::format("'{}' would need no more damping and reduce the motor's noise to {:.3g} %{}",
                                 quietest->name, 100 * *quietest->motor_noise / *choice.motor_noise,
                                 price_of(*quietest, decomposition)));
   if (const std::optional<std::string> note = quieter_law(decomposition.slips)) notes.push_back(*note);

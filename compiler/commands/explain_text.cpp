@@ -152,9 +152,8 @@ std::string static_text(const Compilation& c, const PortUnits& units) {
       "most {:.2g} % of the largest{}\n",
       map.cubics(), map.reach, units.position, 100 * map.static_error, slope_text(map, units));
   text += fmt::format(
-      "behind the curve      lies the network: b, and all stiffness and damping below, is felt at the tool {:.4g} to "
-      "{:.4g} "
-      "times as large; what 'passivity' says is of the tool\n",
+      "seen through it       b, and every stiffness and damping below, is felt at the tool {:.4g} to {:.4g} times as "
+      "large; 'passivity' is about the tool\n",
       least * least, most * most);
   if (c.network.valid.rate && c.network.valid.rate->high > 0)
     text += fmt::format(
@@ -218,8 +217,8 @@ std::string brake_text(const Compilation& c, const PortUnits& units) {
   if (!c.device || c.certificate.added_damping == 0) return "";
   std::string told = fmt::format("{}{:.4g}", c.law.tunable ? "at least " : "", c.law.damping);
   if (c.law.brake_changes() && !c.law.tunable) told += fmt::format(" to {:.4g}", c.law.largest_damping);
-  return fmt::format("brake is told         {} {}, of which {:.4g} are for passivity; it can make {:.4g}\n", told,
-                     units.damping, c.certificate.added_damping, c.port.at_tool().max_damping().value_or(0));
+  return fmt::format("brake command         {} {}, of which {:.4g} are for passivity; the brake can make {:.4g}\n",
+                     told, units.damping, c.certificate.added_damping, c.port.at_tool().max_damping().value_or(0));
 }
 
 // Behind a contact whose brake does nothing even while the tool touches: why, and what would change it.
@@ -233,13 +232,10 @@ std::string why_no_brake(const Compilation& c, const PortUnits& units) {
         c.decomposition.choice().name, feedthrough, units.damping);
   const double viscosity = to_double(zero_frequency_damping(c.form.linear));
   std::string text =
-      "why b is 0            behind a contact the brake may take no more than the feedthrough damping, and that is 0 "
-      "here: no "
-      "damper reaches from the tool to ground without a spring or a slip before it. What the brake made beyond it the "
-      "motor would "
-      "have to take back through the velocity's estimate, also in the samples in which the tool touches or lets go, "
-      "and that can "
-      "bring in energy. A damper beside the rest, from the tool to ground, would give the brake its own value";
+      "why b is 0            with a contact b is at most the feedthrough damping, and that is 0 here: every damper "
+      "between tool and ground has a spring or a slip in series. More damping than that the motor would have to cancel "
+      "with the estimated velocity, also in the samples in which the tool touches or leaves the surface, and that can "
+      "inject energy. A damper from the tool to ground, in parallel with the rest, would give the brake its value";
   if (viscosity > 0) text += fmt::format("; without 'contact' it could take up to {:.6g} {}", viscosity, units.damping);
   return text + "\n";
 }
@@ -248,8 +244,9 @@ std::string why_no_brake(const Compilation& c, const PortUnits& units) {
 std::string legend_of_lines(const std::string& text) {
   const std::pair<const char*, const char*> lines[] = {
       {"share of the device",
-       "of brake, motor and the device's own damping, what this port may count on. Each is chosen for on its share; "
-       "what 'passivity' says is of all ports together on the whole device"},
+       "the part of brake, motor and the device's own damping that this port may use. Each port is chosen for its "
+       "share; "
+       "'passivity' is about all ports together on the whole device"},
       {"static curve", "the force at rest, or at once, over the displacement, which the file asks for"},
       {"quasi-linear law",
        "QLV: f = ∫ G(t − s) df_e(s), passive along one line, whose damping goes with the curve's slope"},
@@ -262,9 +259,8 @@ std::string legend_of_lines(const std::string& text) {
       {"feedthrough damping", "of the damper that is felt at once, however fast the motion"},
       {"mode", "a spring and a damper in series that relax together, and the elements that make them"},
       {"zero-frequency damping", "of the whole network in a slow and steady motion"},
-      {"behind friction", "what happens to damping while a slip slides, and why that was chosen"},
       {"any delay", "the damping to add to b so that a late velocity estimate alone cannot make the law give energy"},
-      {"brake is told", "at the tool: b, or in all that every regime asks for, and what passivity adds"},
+      {"brake command", "at the tool: b, or the sum over the regimes, and the damping that is added for passivity"},
       {"contact", "where the tissue begins, and what is commanded in front of it"},
       {"passivity",
        "the damping that the law needs so that no motion of the tool gets energy out of the loop, and what "
@@ -308,25 +304,28 @@ std::string legend_of_slips(const std::string& text) {
     const char *table, *name, *meaning;
   };
   const Column columns[] = {
-      {"behind ", "behind …:",
-       "of these slips: the law that was chosen, and why; below it how many regimes they have, and what the brake "
-       "makes in each. Where no table follows, the brake makes nothing of this part in any regime"},
-      {"  stuck", "stuck", "the regime: the slips that hold in it; the others slide"},
+      {"slip rule of ", "slip rule of …:",
+       "the rule that was chosen for the part with these slips, and why; below it how many regimes it has, and what "
+       "the brake makes in each. Where no table follows, the brake makes no damping of this part in any regime"},
+      {"  stuck", "stuck", "the regime: the slips that stick in it; the others slide"},
       {"  stuck", "b",
        "the damping that the brake makes of this part in this regime. It makes the b of the table above and, of each "
        "part, the b of its regime; what is added for passivity is not in it"},
-      {"  stuck", "its observer's",
-       "what the rule in the last column asks of the brake; the law `steady` takes the largest of all regimes instead, "
-       "and limits may lower it"},
+      {"  stuck", "b of the rule",
+       "the damping that the rule in the last column gives the brake; `steady` takes the largest of all regimes "
+       "instead, and limits may lower it"},
       {"  stuck", "b∞", "the damping that is felt at once in this regime"},
-      {"  stuck", "compensation", "what the motor takes back of the brake, by the velocity estimate"},
-      {"  stuck", "observer", "the rule that gives the damping of this regime"},
-      {"  law ", "law", "what is done with the damping while slips slide or stick; the chosen one is named above"},
-      {"  law ", "peak error", "the largest error of the felt force in a run, of the largest force in that run"},
-      {"  law ", "rms error", "the same of root mean squares"},
-      {"  law ", "mean brake", "the damping that the brake makes on average, without what is added for passivity"},
-      {"  law ", "minimum damping", "what must be added so that the law is certified; -: nothing is proved"},
-      {"  law ", "motor noise", "the rms force of the motor that comes from the encoder's steps alone"}};
+      {"  stuck", "compensation", "the damping of the brake that the motor cancels, with the velocity estimate"},
+      {"  stuck", "rule", "what gives the damping of this regime"},
+      {"  slip rule ", "slip rule",
+       "how the damping is shared between brake and motor while slips slide or stick; the chosen one is named above"},
+      {"  slip rule ", "peak error",
+       "the largest error of the felt force in a test motion, of the largest force in it"},
+      {"  slip rule ", "rms error", "the same of root mean squares"},
+      {"  slip rule ", "mean brake",
+       "the damping that the brake makes on average, without what is added for passivity"},
+      {"  slip rule ", "minimum damping", "what must be added so that the law is certified; -: no proof covers it"},
+      {"  slip rule ", "motor noise", "the rms force of the motor that comes from the encoder's steps alone"}};
   std::string all;
   for (const Column& column : columns)
     if (("\n" + text).find(std::string("\n") + column.table) != std::string::npos)
@@ -345,9 +344,7 @@ std::string choice_text(const Compilation& c, const PortUnits& units, bool with_
   const bool has_candidates = !c.is_told_slip_by_slip();
   if (has_candidates) text += candidates_text(c.decomposition, c.network);
   if (has_candidates && c.device && c.form.has_slips())
-    text +=
-        "other rows            with what is done behind the slips as it is chosen here; --decomposition chooses that "
-        "anew\n";
+    text += "other rows            with the slip rules that are chosen here; --decomposition chooses them anew\n";
   text += chosen_text(c.decomposition) + brake_text(c, units);
   if (with_legend && has_candidates) text += "\n" + legend(c.device.has_value()) + "\n";
   const std::string slips = to_text(c.decomposition.slips, c.network);
@@ -365,12 +362,11 @@ std::string ports_text(const Compilation& c, const PortUnits& units, bool with_l
     text += "port " + port.network.name + "\n";
     if (c.device) text += "share of the device   " + to_text(port.share) + "\n";
     text += choice_text(port, units, with_legend && &port == &c.ports.front());
-    text +=
-        fmt::format("damping it needs      {}\n\n", port.certificate.bound.proof == Proof::none
-                                                        ? "not known: " + port.certificate.bound.reason
-                                                        : fmt::format("{:.6g} {} from the brake's and the device's own "
-                                                                      "damping that it may count on",
-                                                                      port.certificate.bound.needed, units.damping));
+    text += fmt::format("damping it needs      {}\n\n",
+                        port.certificate.bound.proof == Proof::none
+                            ? "not known: " + port.certificate.bound.reason
+                            : fmt::format("{:.6g} {}, from the brake and the device's own damping",
+                                          port.certificate.bound.needed, units.damping));
   }
   return text + "all ports together\n";
 }

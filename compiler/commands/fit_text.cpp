@@ -25,13 +25,13 @@ class FitText {
   std::string run() {
     std::string text = fmt::format("{}: {} from {} of {}\n", fit_.network_name, counted(fit_.parameters, "parameter"),
                                    rows(), counted(fit_.files.size(), "recording"));
-    text += fmt::format("rms {}, R² {:.5f}; no linear network leaves less than {}", error(fit_.rms), fit_.r_squared,
+    text += fmt::format("rms {}, R² {:.5f}; no linear network has an rms below {}", error(fit_.rms), fit_.r_squared,
                         error(fit_.floor_rms));
     if (fit_.noise && fit_.choices.weighting == Weighting::uniform)
       text += fmt::format("; the noise is about {}", error(*fit_.noise));
     text += fmt::format(
-        "\n{:.4g} effective samples in all, as the richest network tried leaves them, for intervals and BIC; condition "
-        "{:.3g}\n",
+        "\n{:.4g} effective samples in all, by the error of the largest network that was tried, for intervals and BIC; "
+        "condition {:.3g}\n",
         fit_.effective_samples, fit_.condition);
     if (fit_.choices.contact)
       text += fmt::format("surface {} at {}\n", fit_.choices.contact_is_found ? "found" : "given",
@@ -62,17 +62,20 @@ class FitText {
     text += fmt::format(" at {:.6g} {}", file.largest_time, is_spectrum ? "rad/s" : "s");
     if (is_motion) text += fmt::format(", {}", quantity_text(file.largest_position, units_.position, 4));
     text += fmt::format(
-        "; neighbours correlate by {:.3f}, {:.4g} effective samples; scaled by {:.4f} the network would fit "
-        "best",
+        "; errors of neighbouring rows correlate by {:.3f}, {:.4g} effective samples; scaled by {:.4f} the network "
+        "would "
+        "fit best",
         file.lag_one, file.effective_samples, file.best_gain);
     if (file.gain != 1) text += fmt::format("; gain {:.4f}", file.gain);
     if (file.offset != 0)
       text += fmt::format("; offset {}", quantity_text(file.offset, measured_unit(fit_, problem_), 4));
-    if (file.left_out_rms) text += fmt::format("\n    rms {} by the other files alone", error(*file.left_out_rms));
+    if (file.left_out_rms)
+      text += fmt::format("\n    rms {} when only the other files are fitted", error(*file.left_out_rms));
     if (file.free_rows > 0)
       text += fmt::format(
-          "\n    {} of the rows are left out: there the tool has left the tissue, which does not come back as fast, "
-          "and the force, {} rms, tells nothing of it",
+          "\n    {} of the rows are left out: there the tool moves back faster than the tissue recovers and has left "
+          "it, so "
+          "that the force, {} rms, carries no information on it",
           file.free_rows, quantity_text(file.free_rms, measured_unit(fit_, problem_), 4));
     return text + "\n";
   }

@@ -307,7 +307,7 @@ std::string to_text(const PlayedMotion& p, const AxesCompilation& c) {
   text += text_of_limits(p);
   for (unsigned j = 0; j < arm_axes; ++j)
     text += fmt::format("error of what joint {} feels: ", j + 1) + text_of_error(p.errors[j], units.force) + "\n";
-  return text + "error of what is felt at the tip: " + text_of_error(p.at_tip, "N") + "\n" + text_of_energy(p);
+  return text + "felt error at the tip: " + text_of_error(p.at_tip, "N") + "\n" + text_of_energy(p);
 }
 
 std::string to_json(const PlayedMotion& p, const AxesCompilation& c, const std::string& file) {

@@ -241,7 +241,7 @@ std::string text_of_error(const ForceError& error, const std::string& unit) {
 
 std::string text_of_brake(double mean, double most, double for_passivity, const std::string& unit) {
   return fmt::format("{:.4g} {} on average, {:.4g} at most", mean, unit, most) +
-         (for_passivity > 0 ? fmt::format("; of it {:.4g} are there for passivity alone", for_passivity) : "");
+         (for_passivity > 0 ? fmt::format("; {:.4g} of it are for passivity alone", for_passivity) : "");
 }
 
 std::string text_of_limits(const PlayedMotion& p) {
@@ -251,7 +251,8 @@ std::string text_of_limits(const PlayedMotion& p) {
         "the motors' limits: reached in {} samples of {}; each motor then makes what it can, and nothing is proved\n",
         p.limited, p.samples.size());
   return fmt::format(
-      "the motor's limits: reached in {} samples of {}; a law that sheds forces there asks for less in those behind\n",
+      "the motor's limits: reached in {} samples of {}; a law that scales its forces down there asks for less "
+      "afterwards\n",
       p.limited, p.samples.size());
 }
 
@@ -266,12 +267,11 @@ std::string to_text(const PlayedMotion& p, const Compilation& c) {
   const PortUnits units = port_units(c.network.port_motion);
   return fmt::format("{} on {}: {} samples at {:.6g} Hz, decomposition {}\n", c.network.name, c.device->name,
                      p.samples.size(), c.rate, c.decomposition.choice().name) +
-         "the brake is told " +
+         "the brake's command is " +
          text_of_brake(p.mean_damping[0], p.most_damping[0], c.certificate.added_damping, units.damping) +
          fmt::format("\nthe network's force: rms {:.4g} {}, peak {:.4g} {}\n", p.errors[0].rms_force, units.force,
                      p.errors[0].peak_force, units.force) +
-         text_of_limits(p) + "error of what is felt: " + text_of_error(p.errors[0], units.force) + "\n" +
-         text_of_energy(p);
+         text_of_limits(p) + "felt error: " + text_of_error(p.errors[0], units.force) + "\n" + text_of_energy(p);
 }
 
 nlohmann::ordered_json json_of_force(const ForceError& error) {

@@ -39,8 +39,8 @@ std::string share_text(const AxesCompilation& c, const AxesCertificateFile& cert
   const Reference share =
       100 * there.most / Reference(certificate.needed_damping - certificate.for_estimates - certificate.for_lag);
   return fmt::format(
-      "of what the held forces need over the workspace, {:.3g} % are needed at one of {} places, in 100 "
-      "digits; ",
+      "of the bound over the workspace on what the held forces need, {:.3g} % are needed at the worst of {} places, "
+      "computed in 100 digits; ",
       c.certificate.needed > 0 ? share.convert_to<double>() : 0.0, there.places);
 }
 
@@ -79,7 +79,7 @@ std::optional<std::string> verify_axes_texts(const SourceFile& certificate_file,
     return std::nullopt;
   }
   return fmt::format(
-      "{}: {} constants are the nearest to those of network and device, recomputed in 100 digits; banner "
+      "{}: {} constants are correctly rounded, recomputed from network and device in 100 digits; banner "
       "and code are those of the network; {}{}\n",
       compiled->network.name, count, there ? share_text(*compiled, *certificate, *there) : "",
       proved.certified ? "certified" : "not certified: " + why_not);

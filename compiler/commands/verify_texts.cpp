@@ -106,7 +106,7 @@ class TextsVerification {
   std::string at_limits() const {
     const MotorLimits& limits = compiled_->certificate.limits;
     const std::string reason = why_not_covered(limits, port_units(network_->port_motion).damping);
-    return limits.is_covered ? "" : "that no energy comes of the motor's limits is not proved: " + reason + "; ";
+    return limits.is_covered ? "" : "passivity at the motor's limits is not proved: " + reason + "; ";
   }
   std::string why_uncertified() const { return why_not_certified(compiled_->certificate, network_->port_motion); }
 
@@ -169,8 +169,8 @@ std::optional<std::string> verify_texts(const SourceFile& certificate_file, cons
     return std::nullopt;
   }
   return fmt::format(
-      "{}: {} constants are the nearest to those of the network, recomputed in 100 digits; banner and code are those "
-      "of the network; {}{}\n",
+      "{}: {} constants are correctly rounded, recomputed from the network in 100 digits; banner and code are those of "
+      "the network; {}{}\n",
       verification.network().name, count, verification.at_limits(), verification.grade());
 }
 

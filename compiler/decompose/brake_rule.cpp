@@ -45,7 +45,7 @@ std::string names_of(const std::vector<std::size_t>& elements, const Network& ne
 BrakeRule observed_rule(const Network& network, const Candidate& choice, double reference_frequency,
                         ObserverRule observer) {
   const std::optional<Tree> tree = series_parallel_tree(network);
-  if (!tree) return {BrakeFollows::zero_frequency, 0, {}, {}, "the network's viscosity at low frequency"};
+  if (!tree) return {BrakeFollows::zero_frequency, 0, {}, {}, "the network's zero-frequency damping"};
   std::vector<std::size_t> dampers =
       dampers_at_tool(observe(*tree, network, observer, reference_frequency).realisation);
   if (std::abs(sum_of(dampers, network) - choice.wanted_damping) > 1e-12 * choice.wanted_damping)
@@ -53,7 +53,7 @@ BrakeRule observed_rule(const Network& network, const Candidate& choice, double 
             choice.wanted_damping,
             {},
             {},
-            "its value at the defaults, never above the network's viscosity at low frequency"};
+            "its value at the defaults, but no more than the network's zero-frequency damping"};
   add_direct_dampers(network, dampers);
   const std::string text = names_of(dampers, network);
   return {BrakeFollows::observed, 0, std::move(dampers), {}, text};
@@ -67,12 +67,12 @@ BrakeRule faithful_rule(const Decomposition& decomposition) {
   const auto viscous = std::find_if(decomposition.candidates.begin(), decomposition.candidates.end(),
                                     [](const Candidate& candidate) { return candidate.name == "zero-frequency"; });
   const bool is_within = choice.damping <= viscous->wanted_damping;
-  return {
-      is_within ? BrakeFollows::within_viscosity : BrakeFollows::constant,
-      choice.damping,
-      {},
-      {},
-      is_within ? "its value at the defaults, never above the network's viscosity at low frequency" : "no parameter"};
+  return {is_within ? BrakeFollows::within_viscosity : BrakeFollows::constant,
+          choice.damping,
+          {},
+          {},
+          is_within ? "its value at the defaults, but no more than the network's zero-frequency damping"
+                    : "its value at the defaults, whatever the parameters"};
 }
 
 BrakeRule uncapped_rule(const Network& network, const Decomposition& decomposition, double reference_frequency) {
@@ -80,14 +80,14 @@ BrakeRule uncapped_rule(const Network& network, const Decomposition& decompositi
   if (choice.name == "faithful" && choice.faithful) return faithful_rule(decomposition);
   if (choice.name == "velocity-free") return {BrakeFollows::feedthrough, 0, {}, {}, "the feedthrough damping"};
   if (choice.name == "zero-frequency")
-    return {BrakeFollows::zero_frequency, 0, {}, {}, "the network's viscosity at low frequency"};
+    return {BrakeFollows::zero_frequency, 0, {}, {}, "the network's zero-frequency damping"};
   if (choice.name == "quietest-passive")
-    return {BrakeFollows::half_zero_frequency, 0, {}, {}, "half the network's viscosity at low frequency"};
+    return {BrakeFollows::half_zero_frequency, 0, {}, {}, "half the network's zero-frequency damping"};
   if (choice.name == "paper" || choice.name == "faithful")
     return observed_rule(network, choice, reference_frequency, ObserverRule::most_dissipative);
   if (choice.name == "largest-observer")
     return observed_rule(network, choice, reference_frequency, ObserverRule::largest);
-  return {BrakeFollows::constant, choice.wanted_damping, {}, {}, "no parameter"};
+  return {BrakeFollows::constant, choice.wanted_damping, {}, {}, "its value at the defaults, whatever the parameters"};
 }
 
 }  // namespace

@@ -35,9 +35,9 @@ class Decomposer {
     std::vector<Split> list;
     if (lists_faithful()) list.push_back(faithful());
     list.push_back(observed("paper", ObserverRule::most_dissipative));
-    list.push_back({"zero-frequency", viscosity, "the network's own viscosity at low frequency", {}});
+    list.push_back({"zero-frequency", viscosity, "the network's zero-frequency damping", {}});
     list.push_back({"quietest-passive", std::max(half, feedthrough),
-                    "half the viscosity at low frequency, but no less than the feedthrough damping",
+                    "half the zero-frequency damping, but no less than the feedthrough damping",
                     needs_no_estimate ? StateInput::position : StateInput::velocity});
     list.push_back({"velocity-free", feedthrough, "the feedthrough damping: no velocity estimate in the motor",
                     StateInput::position});
@@ -106,7 +106,7 @@ class Decomposer {
     const double feedthrough = to_double(form_.feedthrough_damping);
     return {"faithful",
             feedthrough,
-            "the most damping whose felt error is within the tolerance or, if none is, near the least",
+            "the largest b whose felt error is within the tolerance or, if none is, within 1.05 times the least",
             {}};
   }
 
@@ -114,7 +114,7 @@ class Decomposer {
     if (!tree_)
       return {name,
               to_double(zero_frequency_damping(form_)),
-              "no series-parallel tree, so the viscosity at low frequency",
+              "not a series-parallel tree, so b is the zero-frequency damping",
               {}};
     const Observation observation = observe(*tree_, network_, rule, device_.reference_frequency());
     return {name, to_double(observation.damping), observation.reason, {}};
@@ -386,9 +386,10 @@ std::string contact_text(const Decomposition& decomposition, const Network& netw
   const double step = decomposition.encoder_step;
   const double gap = network.map && step > 0 ? gap_at_tool(*network.map, step) : step;
   if (gap > 0)
-    text += fmt::format(", from a gap of {:.6g} {} on, {}, or as soon as they would pull", gap, unit,
-                        network.map ? "as far behind the curve as one step of the encoder where it is steepest"
-                                    : "one step of the encoder");
+    text += fmt::format(
+        ", from a gap of {:.6g} {} on, {}, or as soon as they would pull", gap, unit,
+        network.map ? "as far along the stretched position as one step of the encoder where the curve is steepest"
+                    : "one step of the encoder");
   return text;
 }
 

@@ -166,8 +166,8 @@ class Observer {
       clauses_.push_back(fmt::format("in series the largest damping is the {:.6g} {} of {}", damping, unit(), names));
     else
       clauses_.push_back(
-          fmt::format("in series, {} turns {:.4g} % of the energy into heat at {}, and the brake follows it", names,
-                      share_of(observed, groups), where()));
+          fmt::format("in series, {} dissipates {:.4g} % of the energy at {}, so that the brake makes its {:.6g} {}",
+                      names, share_of(observed, groups), where(), damping, unit()));
   }
 
   std::string unit() const { return port_units(network_.port_motion).damping; }

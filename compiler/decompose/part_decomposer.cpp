@@ -72,21 +72,21 @@ std::string PartDecomposer::refusal_of(SlipLaw law, const SlipPlan& plan, const 
   if (law == SlipLaw::velocity_free || law == SlipLaw::by_motor) return hindrance_to_choice();
   if (!hindrance_to_choice().empty()) return hindrance_to_choice();
   if (law == SlipLaw::gated)
-    return part_.gated.empty() ? largest_excess() > 0 ? "no damper lies beside a slip"
-                                                      : "the only damping of what slides is at the tool"
+    return part_.gated.empty() ? largest_excess() > 0 ? "no damper is in parallel with a slip"
+                                                      : "while slips slide, no damper acts beyond those at the tool"
                                : "";
-  if (largest_excess() <= 0) return "what slides has no more damping than what holds";
+  if (largest_excess() <= 0) return "no sliding regime calls for more damping than the largest b∞";
   if (law == SlipLaw::steady) {
-    if (behind_contact_) return "the brake lets go of a free tool, so that nothing is steady";
+    if (behind_contact_) return "the brake is off while the tool is free, so that its damping cannot be constant";
     return std::isfinite(plan.estimate_gain)
                ? ""
-               : fmt::format("nothing bounds the estimator '{}'", device.estimator_name());
+               : fmt::format("no bound is known for the gain of the estimator '{}'", device.estimator_name());
   }
   if (!device.estimate_memory())
-    return fmt::format(
-        "the estimator '{}' {}", device.estimator_name(),
-        device.divides_by_varying_interval() ? "divides by intervals that vary" : "never forgets or is not linear");
-  return device.amplifier_lag() > 0 ? "the amplifier lags, and so never forgets" : "";
+    return fmt::format("the estimator '{}' {}", device.estimator_name(),
+                       device.divides_by_varying_interval() ? "divides by intervals that vary"
+                                                            : "has an infinite impulse response or is not linear");
+  return device.amplifier_lag() > 0 ? "the amplifier lags, and so has an infinite impulse response" : "";
 }
 
 std::vector<BrakeShare> PartDecomposer::shares(SlipLaw law, const SlipPlan& plan, const PortDevice& device) const {

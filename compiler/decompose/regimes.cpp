@@ -33,7 +33,8 @@ std::vector<bool> pattern(std::size_t index, std::size_t slips) {
 }
 
 Regime regime_of(const Network& left, std::vector<bool> slides, double reference_frequency) {
-  Regime regime{std::move(slides), linear_form(left), 0, "no series-parallel tree, so the viscosity at low frequency"};
+  Regime regime{std::move(slides), linear_form(left), 0,
+                "not a series-parallel tree, so b is the zero-frequency damping"};
   if (const std::optional<Tree> tree = series_parallel_tree(left)) {
     const Observation observation = observe(*tree, left, ObserverRule::most_dissipative, reference_frequency);
     regime.damping = observation.damping;

@@ -26,7 +26,7 @@ bool asks_the_brake(const ComponentSplit& split) {
 std::string regimes_text(const ComponentSplit& split, const Network& network) {
   const std::string unit = port_units(network.port_motion).damping;
   std::string text =
-      fmt::format("  {:<24}{:>14}{:>16}{:>14}{:>14}  observer\n", "stuck", "b", "its observer's", "b∞", "compensation");
+      fmt::format("  {:<24}{:>14}{:>16}{:>14}{:>14}  rule\n", "stuck", "b", "b of the rule", "b∞", "compensation");
   text += fmt::format("  {:<24}{:>14}{:>16}{:>14}{:>14}\n", "", unit, unit, unit, unit);
   for (std::size_t i = 0; i < split.regimes.regimes.size(); ++i) {
     const Regime& regime = split.regimes.regimes[i];
@@ -43,7 +43,7 @@ std::string refusals_text(const ComponentSplit& split) {
   std::string text;
   for (const SlipLawOffer& offer : split.offers)
     if (!offer.refusal.empty() && offer.law != SlipLaw::velocity_free)
-      text += fmt::format("  {} is not to be had: {}\n", name_of(offer.law), offer.refusal);
+      text += fmt::format("  {} is not available: {}\n", name_of(offer.law), offer.refusal);
   return text;
 }
 
@@ -55,11 +55,10 @@ std::string merits_text(const SlipDecomposition& slips, const Network& network) 
     return fmt::format("  {:<14}{:>12}{:>11}{:>12}{:>17}{:>11}{:>13}\n", cells...);
   };
   std::string text = fmt::format(
-      "laws behind slips in runs around yield{}: sines at both ends of the band, no slower than rate/1200 and no "
-      "faster "
-      "than rate/4, and a drag with reversals\n",
-      has_tunables(network) ? ", all of it for the values of the file" : "");
-  text += row("law", "peak error", "rms error", "mean brake", "minimum damping", "certified", "motor noise");
+      "slip rules in test motions that make the slips yield{}: sines at both ends of the band, no slower than "
+      "rate/1200 and no faster than rate/4, and a drag with reversals\n",
+      has_tunables(network) ? ", with the parameters' values in the file" : "");
+  text += row("slip rule", "peak error", "rms error", "mean brake", "minimum damping", "certified", "motor noise");
   text += row("", "%", "%", units.damping, units.damping, "", units.force);
   for (const SlipLawMerit& merit : slips.merits)
     text +=
@@ -115,7 +114,7 @@ std::string to_text(const SlipLikes& likes) {
   std::string names;
   for (std::size_t i = 0; i < shown; ++i) names += (i == 0 ? "" : "; ") + likes.names[i];
   if (shown < likes.names.size()) names += fmt::format(" and {} more", likes.names.size() - shown);
-  return fmt::format("behind {}: {}, {}", names, name_of(likes.first->law), likes.first->reason);
+  return fmt::format("slip rule of {}: {}, {}", names, name_of(likes.first->law), likes.first->reason);
 }
 
 std::string to_text(const SlipDecomposition& slips, const Network& network) {
@@ -124,9 +123,10 @@ std::string to_text(const SlipDecomposition& slips, const Network& network) {
     text += fmt::format("{}\n", to_text(likes));
     const bool is_silent = std::all_of(likes.first->shares.begin(), likes.first->shares.end(),
                                        [](const BrakeShare& share) { return share.damping == 0; });
-    text += fmt::format(
-        "  {} regimes{}{}\n", likes.first->regimes.count, likes.names.size() > 1 ? " each" : "",
-        is_silent && !asks_the_brake(*likes.first) ? ", and the brake makes nothing of this part in any" : "");
+    text += fmt::format("  {} regimes{}{}\n", likes.first->regimes.count, likes.names.size() > 1 ? " each" : "",
+                        is_silent && !asks_the_brake(*likes.first)
+                            ? ", and the brake makes no damping of this part in any of them"
+                            : "");
     if (asks_the_brake(*likes.first)) text += regimes_text(*likes.first, network);
     if (likes.first->regimes.regimes.empty() && likes.first->shares.front().damping > 0)
       text += fmt::format("  b = {:.8g} in every regime\n", likes.first->shares.front().damping);

@@ -92,7 +92,7 @@ void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_
   }
   if (slips.steady > 0)
     felt = writer_.add(felt, writer_.multiply(writer_.constant("slips_feedthrough", writer_.damping(),
-                                                               "b∞ behind slips", slips.steady),
+                                                               "b∞ of the parts with slips", slips.steady),
                                               writer_.read(law.velocity)));
   if (slips.changing != nothing) felt = writer_.add(felt, writer_.multiply(slips.changing, writer_.read(law.velocity)));
   if (slips.compensation != nothing) {

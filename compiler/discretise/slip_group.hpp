@@ -18,8 +18,8 @@ class SlipGroup {
   // `settings` of the brake must outlive this object.
   SlipGroup(LawWriter& writer, const Network& network, const Real& sample_period, const SlipDecomposition& settings);
 
-  // True if the component fits those already in: it has rows of the same form, and no modes. `split` is null if it
-  // leaves nothing to the brake. Both must outlive this object.
+  // True if the component can share the code of those already added: it has rows of the same form, and no modes.
+  // `split` is null if it leaves nothing to the brake. Both must outlive this object.
   bool accepts(const NormalTree& component, const ComponentSplit* split) const;
   void add(const NormalTree& component, const ComponentSplit* split);
 

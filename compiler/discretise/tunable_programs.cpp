@@ -118,7 +118,7 @@ class ProgramsBuilder {
     });
     viscosity_ = viscosity_ == nothing ? none()
                                        : named("viscosity", writer_.damping(),
-                                               "Z(0), damping of the network at low frequency", viscosity_, "Z(0)");
+                                               "Z(0), zero-frequency damping of the network", viscosity_, "Z(0)");
   }
 
   // z ← z + φ δ − α z with x = h k/B, α = x φ. Exact φ = (1 − e^(−x))/x; backward Euler φ = 1/(1 + x).
@@ -161,7 +161,7 @@ class ProgramsBuilder {
     step_stiffness_ = both;
     feedthrough_ = writer_.plus(feedthrough_, writer_.read(through));
     if (!follows_viscosity()) return;
-    const VariableId viscosity = tuned("mesh_viscosity", writer_.damping(), "damping of the meshes at low frequency");
+    const VariableId viscosity = tuned("mesh_viscosity", writer_.damping(), "zero-frequency damping of the meshes");
     springs_->tune_viscosity(viscosity);
     viscosity_ = writer_.plus(viscosity_, writer_.read(viscosity));
   }
@@ -177,7 +177,7 @@ class ProgramsBuilder {
     // Where a surface can be left the motor compensates nothing, so that b is at most b∞.
     if (head_.contact.is_there) brake = least_of(brake, feedthrough_);
     steady_brake_ = tuned("steady_brake", writer_.damping(), "b of the parts that no slip changes");
-    writer_.assign(law_.tune, steady_brake_, brake, "b follows " + tables_.brake.text);
+    writer_.assign(law_.tune, steady_brake_, brake, "b: " + tables_.brake.text);
     velocity_gain_ = tuned("velocity_gain", writer_.damping(), "b∞ − b");
     writer_.assign(law_.tune, velocity_gain_, writer_.subtract(feedthrough_, writer_.read(steady_brake_)), "b∞ − b");
     if (!head_.slip_rule.takes_part) return;
@@ -366,12 +366,13 @@ class ProgramsBuilder {
   // motor's velocity gain.
   ExpressionId left_to_brake(ExpressionId force, ExpressionId& brake, ExpressionId* gain) {
     if (!head_.slip_rule.takes_part) return force;
-    const VariableId now = local("slips_feedthrough", writer_.stiffness(), "b∞/h behind slips, left to the brake"),
-                     damping = local("slips_brake", writer_.damping(), "b of the parts behind slips");
+    const VariableId now = local("slips_feedthrough", writer_.stiffness(),
+                                 "b∞/h of the parts with slips, left to the brake"),
+                     damping = local("slips_brake", writer_.damping(), "b of the parts with slips");
     brake = writer_.add(brake, writer_.read(damping));
     const bool makes_up = gain != nullptr && make_up_ != nothing;
     const VariableId wanted =
-        makes_up ? local("slips_wanted", writer_.damping(), "b of the parts behind slips that the coil is moving to")
+        makes_up ? local("slips_wanted", writer_.damping(), "b of the parts with slips that the coil is moving to")
                  : no_variable;
     springs_->slips().write_brake({now, damping, wanted}, law_.position, writer_.read(left_));
     if (makes_up) {
@@ -428,7 +429,7 @@ class ProgramsBuilder {
     springs_->write_rest(writer_.read(law_.rest_position));
     ExpressionId resting = damping();
     if (head_.slip_rule.takes_part) {
-      const VariableId slips = state("resting_brake", writer_.damping(), "b of the parts behind slips that hold");
+      const VariableId slips = state("resting_brake", writer_.damping(), "b of the parts with slips that stick");
       springs_->slips().write_resting_brake(slips, writer_.read(left_));
       resting = writer_.add(resting, writer_.read(slips));
     }

@@ -31,7 +31,7 @@ void TunedSlips::declare() {
                            [&](const char* what, const std::string& unit, const char* meaning, Role role) {
                              return numbers_.scalar(joined(tables_.slip_names[k], what), unit, meaning, role);
                            });
-  if (coil_lags()) root_ = numbers_.scalar("slips_brake_root", "1", "√b of the parts behind slips", Role::state);
+  if (coil_lags()) root_ = numbers_.scalar("slips_brake_root", "1", "√b of the parts with slips", Role::state);
 }
 
 void TunedSlips::declare(const TunableCoupling& table) {

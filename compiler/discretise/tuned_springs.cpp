@@ -408,7 +408,7 @@ void TunedSprings::tune_viscosity(VariableId viscosity) {
   each_part_of(0, [&](const BlockPart& part) {
     if (part.kind == PartKind::mesh) sum = writer_.plus(sum, meshes_.at(&part).viscosity(given(part)));
   });
-  assign(viscosity, or_zero(sum), "damping of the meshes at low frequency");
+  assign(viscosity, or_zero(sum), "zero-frequency damping of the meshes");
 }
 
 void TunedSprings::write_rest(ExpressionId position) {

@@ -132,7 +132,7 @@ Expected expected_at(const AxesCompilation& c, const Pair<double>& joints) {
 
 // The force felt at a velocity has a closed form only if nothing slides, touches or is gated.
 std::string why_no_motion_is_played(const AxesCompilation& c) {
-  if (c.certificate.gate) return "a gate";
+  if (c.certificate.gate) return "a torque limiter (gate)";
   for (const Compilation& port : c.ports) {
     if (port.network.contact) return "a contact";
     if (port.form.has_slips()) return "slips";

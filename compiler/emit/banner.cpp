@@ -25,7 +25,7 @@ std::string words_in(const std::vector<std::string>& facts) {
   };
   std::string text =
       "words: passive means that the hand never gets more energy than it has put in; certified, that this is proved";
-  if (are_used("mode")) text += ". A mode is a spring behind a damper, whose force dies away";
+  if (are_used("mode")) text += ". A mode is a spring in series with a damper, whose force dies away";
   if (are_used("observe"))
     text +=
         ". A damper is observed if its damping is in b; the motor then makes the difference that the spring in series "
@@ -70,8 +70,8 @@ std::string in_words(Scheme scheme, bool switches, bool behind_map, bool is_mixe
   if (scheme == Scheme::backward_euler) return "the paper's own, whose error falls in proportion to the period";
   return std::string(behind_map ? "a motion whose w is straight between two samples is answered exactly"
                                 : "a motion that is straight between two samples is answered exactly") +
-         (is_mixed ? ", but for the elements that are told below" : "") +
-         (switches ? ", but for samples in which a slip or a contact changes" : "");
+         (is_mixed ? ", except the elements listed below under 'backward Euler'" : "") +
+         (switches ? ", except in samples in which a slip or a contact changes" : "");
 }
 
 // What moves the states.
@@ -104,18 +104,20 @@ void describe_tunables(const UpdateLaw& law, const SampledLoop& loop, const std:
   for (const std::string& element : tables.mesh_elements) elements += (elements.empty() ? "" : ", ") + element;
   facts.push_back("tunable: " + names);
   facts.push_back(
-      "  set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as "
-      "other springs set energy free; but the motor still holds the force of the last sample, so call set() right "
+      "  set() itself injects no energy: raising a stiffness under load raises the force only as far as energy that "
+      "other springs release allows; but the motor still holds the force of the last sample, so call set() right "
       "after step() and take the command from output() of the same sample");
   if (loop.is_late())
     facts.push_back(fmt::format(
-        "  here {}: forces of before a change still act for that time; what a spring loses that becomes softer pays "
-        "for them, but one that becomes stiffer again within that time may bring in half the rise times the square of "
-        "the tool's way; a certificate is of what happens between changes",
+        "  here {}: forces from before a change still act for that time. The energy that a softened spring loses pays "
+        "for "
+        "them, but a spring that stiffens again within that time may inject half the rise of its stiffness times the "
+        "square of the tool's way; a certificate covers what happens between changes",
         why_late(loop)));
-  facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake.text));
+  facts.push_back(fmt::format("  b [{}] after set(): {}", damping_unit, tables.brake.text));
   if (!elements.empty())
-    facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
+    facts.push_back("  by backward Euler, because their relaxations depend on a tunable or on several slips: " +
+                    elements);
   describe_cost(law, facts);
   facts.push_back(
       fmt::format("cost of set(): {} operations for the constants, {} for the forces of springs and their energy",
@@ -137,9 +139,10 @@ std::string loops_line(const UpdateLaw& law, VectorRegisters registers) {
 void describe_curve(const Compilation& c, std::vector<std::string>& facts) {
   if (c.network.map)
     facts.push_back(fmt::format(
-        "static curve: {}; the network lies behind a map w of the position u, for which u stands in what follows: f = "
-        "w' F(w), b = w'^2 b_w, with {:.4g} <= w' <= {:.4g}; the curve's force is off by at most {:.2g} % of the "
-        "largest, and w' by {:.2g} % of its largest",
+        "static curve: {}; the network is stretched by w(u) instead of the position u, and u in the lines below stands "
+        "for "
+        "that w: f = w' F(w), b = w'^2 b_w, with {:.4g} <= w' <= {:.4g}; the curve's force is off by at most {:.2g} % "
+        "of the largest, and w' by {:.2g} % of its largest",
         to_text(*c.network.static_curve, c.network.port_motion), c.network.map->least_tangent(0, c.network.map->reach),
         c.network.map->steepest(), 100 * c.network.map->static_error, 100 * c.network.map->slope_error));
 }
@@ -154,10 +157,10 @@ void describe_choice(const Compilation& c, const std::string& unit, std::vector<
     facts.push_back(
         "brake: makes the damping that the next lines give for each slip, and the motor the rest of the force");
   else
-    facts.push_back(
-        fmt::format("brake: makes b = {} {} of damping{}{}, and the motor the rest of the force; by the rule '{}': {}",
-                    choice.damping, unit, capped, slips.empty() ? "" : ", behind slips also what the next lines give",
-                    choice.name, choice.why()));
+    facts.push_back(fmt::format(
+        "brake: makes b = {} {} of damping{}{}, and the motor the rest of the force; by the rule '{}': {}",
+        choice.damping, unit, capped, slips.empty() ? "" : " and, in the parts with slips, what the next lines give",
+        choice.name, choice.why()));
   for (const SlipLikes& likes : slips) facts.push_back(brake_line(likes, unit));
   facts.push_back(fmt::format("states: what the law remembers follows {} ({})", in_words(choice.state_input),
                               c.decomposition.reason));
@@ -244,9 +247,9 @@ std::vector<std::string> banner(const Compilation& c, const UpdateLaw& law, Timi
       facts.push_back(line);
   facts.push_back(fmt::format("device: {}",
                               c.device ? c.device->name
-                                       : "none is named: exact brake, no delay, and for velocity the difference of the "
+                                       : "none is named: exact brake, no delay, and as velocity the difference of the "
                                          "last two positions over the period. Pass that velocity: a smoother estimate "
-                                         "comes later, and nothing is certified for it here"));
+                                         "comes later, and the certificate does not cover it"));
   if (law.tunable) describe_tunables(law, c.certificate.loop, unit, facts);
   else describe_cost(law, facts);
   if (timing == Timing::constant) facts.push_back("constant time: output() and update() choose by masks, not by jumps");

@@ -165,9 +165,10 @@ CodeModel response_test_model(const Compilation& c, const std::string& log1p) {
       why_none.empty()
           ? fmt::format("Tests {} against the closed forms of its network{}", c.network.name,
                         c.network.map ? " behind its static curve" : "")
-          : fmt::format("Tests {} at rest, and by numbers that are none. No motion is played to it, since {}; "
-                        "'dashpot simulate' says what the force of any motion is",
-                        c.network.name, why_none),
+          : fmt::format(
+                "Tests {} at rest, and with NaN and infinite samples. No force along a motion is checked, because {}; "
+                "'dashpot simulate' says what the force of any motion is",
+                c.network.name, why_none),
       112, 0));
   fields["scheme"] = name_of(c.law.scheme);
   fields["rate"] = fmt::format("{:#}", c.rate);

@@ -514,7 +514,7 @@ class Chooser {
     }
     const std::string columns = fmt::format("{}", fmt::join(parts, ","));
     return Answer{search_.command + " --columns " + columns_word(columns),
-                  guesses_unit ? "where the units are right" : "where the columns are right"};
+                  guesses_unit ? "if the units are right" : "if the columns are right"};
   }
 
   std::optional<Offer> named_offer(const std::vector<Role>& group) const {

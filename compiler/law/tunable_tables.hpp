@@ -190,7 +190,7 @@ inline constexpr double largest_ratio = 0x1p100;
 enum class BrakeFollows : std::uint8_t {
   constant,             // nothing: it stays the same
   observed,             // the sum of the dampers that the brake replaces
-  zero_frequency,       // Z(0), the network's viscosity at low frequency
+  zero_frequency,       // Z(0), the network's zero-frequency damping
   half_zero_frequency,  // ½ Z(0), never below b∞
   feedthrough,          // b∞
   within_viscosity,     // the constant, never above Z(0)

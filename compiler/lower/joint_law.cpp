@@ -392,9 +392,9 @@ class Merging {
   axes::Gated<Term> behind_gate(const Symmetric<Term>& target, const Term& turning, const std::vector<Term>& brakes,
                                 const Pair<Term>& v, Pair<Term>& torque) {
     for (std::size_t k = 0; k < 2; ++k)
-      limits_[k] =
-          writer_.scalar(writer_.unique("coupling_left_" + std::to_string(k + 1)), damping_unit(),
-                         "what the gate has left of the allowance of brake " + std::to_string(k + 1), Role::state);
+      limits_[k] = writer_.scalar(
+          writer_.unique("coupling_left_" + std::to_string(k + 1)), damping_unit(),
+          "what the torque limiter (gate) has left of the allowance of brake " + std::to_string(k + 1), Role::state);
     const Pair<double> along[] = {plan_.brakes[0].along, plan_.brakes[1].along};
     const Pair<Pair<double>> dual = axes::dual(along[0], along[1]);
     const auto [p, r, s] = axes::along_brakes(dual, target);
@@ -407,7 +407,7 @@ class Merging {
     for (std::size_t k = 0; k < 2; ++k) {
       const std::string number = std::to_string(k + 1);
       terms_.call(passed.coupling[k], "coupling_" + number, damping_unit(),
-                  "what the gate lets the motors make along brake " + number);
+                  "what the torque limiter (gate) lets the motors make along brake " + number);
       torque = torque + made[k] * axes::constant<Term>(along[k]);
     }
     return passed;

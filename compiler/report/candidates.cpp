@@ -29,11 +29,11 @@ std::vector<FigureOfMerit> figures_of_merit(const Compilation& c) {
   const PortUnits units = dotted_units(c.network.port_motion);
   const auto known = [](const std::optional<double>& figure) { return figure.value_or(not_computed); };
   std::vector<FigureOfMerit> all = {
-      {"largest error of what is felt", "%", [](const Candidate& k) { return 100 * k.largest_error; }},
+      {"largest felt error", "%", [](const Candidate& k) { return 100 * k.largest_error; }},
       {"motor noise", units.force, [=](const Candidate& k) { return known(k.motor_noise); }},
       {"velocity gain of the motor", units.damping, [](const Candidate& k) { return k.velocity_gain; }},
       {"minimum damping", units.damping, [=](const Candidate& k) { return known(k.minimum_damping); }},
-      {"extra damping under any delay", units.damping,
+      {"damping needed for any delay", units.damping,
        [=](const Candidate& k) { return known(k.extra_damping_any_delay); }},
       {"damping asked of the brake", units.damping, [](const Candidate& k) { return k.damping; }}};
   const auto is_known = [&](const FigureOfMerit& figure) {
@@ -143,8 +143,7 @@ std::string joined(const std::vector<std::string>& names) {
 
 std::string felt_error_html(const Compilation& c) {
   if (c.decomposition.error_frequencies.empty()) return "";
-  Plot plot{"Error of what is felt", {"frequency", "Hz"},    {"error", "%"},
-            AxisScale::logarithmic,  AxisScale::logarithmic, {}};
+  Plot plot{"Felt error", {"frequency", "Hz"}, {"error", "%"}, AxisScale::logarithmic, AxisScale::logarithmic, {}};
   constexpr Channel channels[] = {Channel::brake, Channel::motor, Channel::closed_form};
   std::size_t next = 0;
   for (const ErrorCurve& curve : error_curves(c)) {

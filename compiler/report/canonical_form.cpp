@@ -69,7 +69,7 @@ std::string canonical_form_html(const Compilation& c) {
   html += row("static stiffness <i>k</i><sub>0</sub>", number_text(to_double(form.static_stiffness)), units.stiffness);
   html +=
       row("feedthrough damping <i>b</i><sub>∞</sub>", number_text(to_double(form.feedthrough_damping)), units.damping);
-  html += row("viscosity at low frequency <i>b</i><sub>∞</sub> + ∑<i>k</i>/<i>λ</i>",
+  html += row("zero-frequency damping <i>b</i><sub>∞</sub> + ∑<i>k</i>/<i>λ</i>",
               number_text(to_double(zero_frequency_damping(form))), units.damping);
   html += "</tbody></table>\n";
   return form.modes.empty() ? html : html + modes_table(c, units);

@@ -16,26 +16,27 @@ std::string fact_row(const std::string& name, const std::string& value, const st
 }
 
 std::string damping_facts(const Certificate& c, const PortUnits& units) {
-  std::string html = fact_row("damping needed at most", number_text(c.bound.needed), units.damping);
-  if (c.bound.frequency > 0) html += fact_row("where it binds", number_text(c.bound.frequency), "Hz");
-  html += fact_row("damping assured", number_text(c.assured), units.damping);
-  if (c.added_damping > 0) html += fact_row("of it added for passivity", number_text(c.added_damping), units.damping);
+  std::string html = fact_row("damping needed", number_text(c.bound.needed), units.damping);
+  if (c.bound.frequency > 0) html += fact_row("most at", number_text(c.bound.frequency), "Hz");
+  html += fact_row("damping guaranteed", number_text(c.assured), units.damping);
+  if (c.added_damping > 0)
+    html += fact_row("of which added for passivity", number_text(c.added_damping), units.damping);
   if (c.certified) return html;
   const double missing = c.minimum_damping - c.added_damping;
-  const std::string lacking = std::isfinite(missing) ? number_text(missing) : "no command would do";
-  return html + fact_row("lacking in the brake's command", lacking, units.damping);
+  const std::string lacking = std::isfinite(missing) ? number_text(missing) : "no command is enough";
+  return html + fact_row("missing in the brake's command", lacking, units.damping);
 }
 
 std::string encoder_facts(const Certificate& c, const PortUnits& units) {
   if (c.loop.encoder_step == 0) return "";
   std::string html;
   if (c.quantisation_gain)
-    html += fact_row("the encoder's steps act in the motor like a spring of", number_text(*c.quantisation_gain),
+    html += fact_row("energy of the encoder's steps is that of a spring of", number_text(*c.quantisation_gain),
                      units.stiffness);
-  html += fact_row("friction takes its energy up to 2<i>f</i><sub>c</sub>/Δ =", number_text(c.quantisation_stiffness),
+  html += fact_row("friction dissipates it up to 2<i>f</i><sub>c</sub>/Δ =", number_text(c.quantisation_stiffness),
                    units.stiffness);
   if (unpaid_force(c) > 0)
-    html += fact_row("what is beyond can give the hand", number_text(unpaid_force(c)), "J/" + units.position);
+    html += fact_row("the rest can give the hand", number_text(unpaid_force(c)), "J/" + units.position);
   return html;
 }
 

@@ -75,7 +75,7 @@ std::string candidates(const ComponentSplit& split) {
     const bool is_taken = offer.law == split.law;
     const std::string verdict = is_taken                ? "taken"
                                 : offer.refusal.empty() ? "possible"
-                                                        : "not to be had: " + offer.refusal;
+                                                        : "not available: " + offer.refusal;
     html += fmt::format("<li{}><b>{}</b> {}</li>\n", is_taken ? " class=\"chosen\"" : "", name_of(offer.law),
                         escaped(in_four_digits(verdict)));
   }
@@ -112,7 +112,8 @@ std::string worst_run(const SlipDecomposition& slips) {
   if (slips.runs.empty()) return "";
   const auto [least, most] = extreme_runs(slips.runs);
   return fmt::format(
-      "<p>With the law that is taken, what is felt errs by up to {} % of the force, in {}; least in {}, by {} %.</p>\n",
+      "<p>With the slip rule that is taken, the felt force deviates by up to {} % of the largest force, in {}; least "
+      "in {}, by {} %.</p>\n",
       number_text(100 * most.error), escaped(most.motion), escaped(least.motion), number_text(100 * least.error));
 }
 
@@ -121,10 +122,12 @@ std::string merits_table(const SlipDecomposition& slips, const Network& network)
   if (slips.merits.empty()) return "";
   const PortUnits units = dotted_units(network.port_motion);
   std::string html = fmt::format(
-      "<h3>Candidates in runs of the whole</h3>\n<p>Each law behind all slips that can have it, in runs around yield: "
-      "sines at both ends of the band and a drag with reversals; within "
-      "{} % the largest brake is taken.</p>\n{}<div class=\"wide\"><table class=\"candidates\"><thead><tr>"
-      "<th class=\"word\">law</th><th>peak error [%]</th><th>rms error [%]</th><th>mean brake [{}]</th>"
+      "<h3>Slip rules in test motions of the whole network</h3>\n<p>Each slip rule for all parts that can have it, in "
+      "motions that make "
+      "the slips yield: sines at both ends of the band and a drag with reversals; of those within {} % the one with "
+      "the largest "
+      "damping of the brake is taken.</p>\n{}<div class=\"wide\"><table class=\"candidates\"><thead><tr>"
+      "<th class=\"word\">slip rule</th><th>peak error [%]</th><th>rms error [%]</th><th>mean brake [{}]</th>"
       "<th>minimum damping [{}]</th><th>certified</th><th>motor noise [{}]</th></tr></thead><tbody>\n",
       number_text(100 * slips.limit), worst_run(slips), units.damping, units.damping, units.force);
   for (const SlipLawMerit& merit : slips.merits)

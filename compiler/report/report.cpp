@@ -52,7 +52,7 @@ std::vector<Fields> facts(const Compilation& c) {
     list.push_back(fact("static stiffness", number_text(to_double(c.form.linear.static_stiffness)), units.stiffness));
     list.push_back(fact("modes", std::to_string(c.form.linear.modes.size()), ""));
     const double viscosity = to_double(zero_frequency_damping(c.form.linear));
-    list.push_back(fact("viscosity at low frequency", number_text(viscosity), units.damping));
+    list.push_back(fact("zero-frequency damping", number_text(viscosity), units.damping));
   } else {
     const auto gives_way = [](const Element& e) { return e.has_effect && is_slip(e.law); };
     const auto slips = std::count_if(c.network.elements.begin(), c.network.elements.end(), gives_way);
@@ -102,7 +102,7 @@ void add_linear_parts(const Compilation& c, CodeModel& model) {
   if (is_linear(c) && !c.network.contact && !c.network.map)
     model.lists["agreement"].push_back({{"body", agreement_html(c)}});
   if (!has_candidates(c)) return;
-  model.lists["candidates"].push_back({{"where", is_linear(c) ? "" : " beside the slips"},
+  model.lists["candidates"].push_back({{"where", is_linear(c) ? "" : " in parallel with the slips"},
                                        {"choice", escaped(c.decomposition.choice().name)},
                                        {"reason", escaped(in_four_digits(c.decomposition.reason))},
                                        {"in_words", in_words_html(c.decomposition.in_words)},

@@ -46,13 +46,14 @@ std::string tunable_law_html(const Compilation& c) {
   const TunableTables& tables = *c.law.tunable;
   const std::size_t states = cost_of(c.law, c.law.output).states;
   std::string html =
-      "<p>The constants follow the parameters: <code>set()</code> takes the law to others right after a sample, and "
-      "injects no energy where the command is then that of <code>output()</code> with that sample. Everything else on "
-      "this page holds for their defaults.</p>\n";
+      "<p><code>set()</code> changes the parameters and recomputes the constants from them. Called right after a "
+      "sample, it "
+      "injects no energy if the command is then taken from <code>output()</code> of that sample. Everything else on "
+      "this page is for the parameters' defaults.</p>\n";
   html += parameters_table(tables, c.network);
-  html += "<p>The brake's <i>b</i> follows " + escaped(tables.brake.text) + ".";
+  html += "<p>The brake's <i>b</i> after <code>set()</code>: " + escaped(tables.brake.text) + ".";
   if (!tables.mesh_elements.empty())
-    html += " By backward Euler, since their relaxations mix with a parameter or at several slips: " +
+    html += " By backward Euler, because their relaxations depend on a parameter or on several slips: " +
             escaped(joined_names(tables.mesh_elements)) + ".";
   return html + fmt::format(
                     " Cost at most: {} operations before the command, {} after it, {} in <code>set()</code>; "

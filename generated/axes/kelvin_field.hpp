@@ -10,18 +10,18 @@
 //   joint's velocity acts on the other
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 100 % at least, at (-11,
 //   100.6) mm, averaged over all directions of motion
-// passivity: certified for any motion in the workspace, while the motors make their torques: what the motors hold
-//   from one sample to the next needs 0.00428038 and 0.00428038 N·m·s/rad of damping at the joints; their own
-//   damping and the brakes' share of the network's leave 0.00421049 and 0.00421049 N·m·s/rad of it to be added,
-//   most at (0.9375, 70) mm
-//   the motors make up to 0.1 and 0.1 N m; where the law asks for more each makes what it can, nothing is proved,
-//   and energy may come out: 'dashpot run' says in how many samples
-//   of what is needed, 0.00345047 and 0.00345047 N·m·s/rad are for what the motors make of estimated velocities,
-//   however late
-//   of what is needed, 0.000771214 and 0.000771214 N·m·s/rad are for the lag of the motors' amplifiers
-//   where the motors make damping from velocity estimates, no delay that both joints share costs passivity in 100
-//   % of the workspace
-//   added to the brakes' commands for it: 0.00446149, 0.00446149 N m s/rad; felt at the tip: up to 3.62 N s/m more
+// passivity: certified for any motion in the workspace, as long as no motor is at its limit: the torques that the
+//   motors hold from one sample to the next need 0.00428038 and 0.00428038 N·m·s/rad of damping at the joints;
+//   after the joints' own damping and the brakes' share of the network's, 0.00421049 and 0.00421049 N·m·s/rad of
+//   it are still missing, most at (0.9375, 70) mm
+//   the motors make up to 0.1 and 0.1 N m; where the law asks for more, each makes what it can, nothing is proved,
+//   and the hand may get energy: 'dashpot run' says in how many samples
+//   0.00345047 and 0.00345047 N·m·s/rad of the needed damping are for torques computed from estimated velocities,
+//   however late these are
+//   0.000771214 and 0.000771214 N·m·s/rad of the needed damping are for the lag of the motors' amplifiers
+//   in 100 % of the workspace, the damping that the motors make from velocity estimates stays passive for any
+//   delay that both joints share
+//   added to the brakes' commands: 0.00446149, 0.00446149 N m s/rad; felt at the tip as up to 3.62 N s/m more
 // device: pantograph_2dof
 // cost of output(): 68 additions, 78 multiplications, 2 selections, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
@@ -30,8 +30,8 @@
 //   Passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 891796bb1804f2b9e2fd5639d51c9ddbcd99cc9834cf0fe75acc324a0ae3ae4c. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 891796bb1804f2b9e2fd5639d51c9ddbcd99cc9834cf0fe75acc324a0ae3ae4c. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -10,19 +10,19 @@
 //   joint's velocity acts on the other
 // share: of the ports' damping the brakes make 109 % in the median over the workspace, 71.1 % at least, at (-1,
 //   119.4) mm, averaged over all directions of motion
-// passivity: not certified, since port 'ball': the contact lets go by a velocity estimate, and the amplifier lags:
-//   what the motors hold from one sample to the next needs 0.0446642 and 0.0446642 N·m·s/rad of damping at the
-//   joints; their own damping and the brakes' share of the network's leave 0.0445944 and 0.0445944 N·m·s/rad of it
-//   to be added, most at (-22.97, 120) mm
-//   the motors make up to 0.1 and 0.1 N m; where the law asks for more each makes what it can, nothing is proved,
-//   and energy may come out: 'dashpot run' says in how many samples
-//   of what is needed, 0.00743716 and 0.00743716 N·m·s/rad are for what the motors make of estimated velocities,
-//   however late
-//   of what is needed, 0.0336727 and 0.0336727 N·m·s/rad are for the lag of the motors' amplifiers
-//   where the motors make damping from velocity estimates, no delay that both joints share costs passivity in 100
-//   % of the workspace
-//   added to the brakes' commands for it: 0.01398, 0.01398 N m s/rad, all that they can give; felt at the tip: up
-//   to 11.3 N s/m more
+// passivity: not certified, since port 'ball': the end of the contact is computed from the estimated velocity, and
+//   the amplifier lags: the torques that the motors hold from one sample to the next need 0.0446642 and 0.0446642
+//   N·m·s/rad of damping at the joints; after the joints' own damping and the brakes' share of the network's,
+//   0.0445944 and 0.0445944 N·m·s/rad of it are still missing, most at (-22.97, 120) mm
+//   the motors make up to 0.1 and 0.1 N m; where the law asks for more, each makes what it can, nothing is proved,
+//   and the hand may get energy: 'dashpot run' says in how many samples
+//   0.00743716 and 0.00743716 N·m·s/rad of the needed damping are for torques computed from estimated velocities,
+//   however late these are
+//   0.0336727 and 0.0336727 N·m·s/rad of the needed damping are for the lag of the motors' amplifiers
+//   in 100 % of the workspace, the damping that the motors make from velocity estimates stays passive for any
+//   delay that both joints share
+//   added to the brakes' commands: 0.01398, 0.01398 N m s/rad, all that they can give; felt at the tip as up to
+//   11.3 N s/m more
 // device: pantograph_2dof
 // cost of output(): 78 additions, 91 multiplications, 9 selections, 1 guard against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 0 selections, 1 guard against subnormal numbers
@@ -31,8 +31,8 @@
 //   Passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 92763b4e7d88c80643bd40e5f80871202c4447194ad7f18354069871e6f22289. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 92763b4e7d88c80643bd40e5f80871202c4447194ad7f18354069871e6f22289. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -3,29 +3,29 @@
 // source: Gosline & Hayward 2009, Fig. 3 and (10)-(11); the paper prints no values, these are chosen here
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 6 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, (K2 |
-//   B2) turns 90.36 % of the energy into heat at low frequency, and the brake follows it
+//   B2) dissipates 90.36 % of the energy at low frequency, so that the brake makes its 6 N s/m
 // states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: certified for any motion, samples at 1000 Hz: needs 3.56881 N·s/m, most at 22.5854 Hz, at least 6
-//   N·s/m is there
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: certified for any motion, samples at 1000 Hz: needs 3.56881 N·s/m, the most at 22.5854 Hz; 6 N·s/m is
+//   guaranteed
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 1.3e-14 of the
-//   sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion the law gives out no more work than stored_energy() decreases by; rounding changes the
+//   force by at most 1.3e-14 of the sum of its terms' magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 1 guard against subnormal numbers; 4 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 1.2e-14 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 568aa916d322e556af757b430ca7c246b5eba538d99702a6ca3cab14fe37fc1d. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 568aa916d322e556af757b430ca7c246b5eba538d99702a6ca3cab14fe37fc1d. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -3,29 +3,29 @@
 // source: Gosline & Hayward 2009, section 5.4: B = 5, K = 50, 1 ms
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 5 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B
-//   turns 100 % of the energy into heat at low frequency, and the brake follows it
+//   dissipates 100 % of the energy at low frequency, so that the brake makes its 5 N s/m
 // states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: certified for any motion, samples at 1000 Hz: needs 4.95449 N·s/m, most at 18.8943 Hz, at least 5
-//   N·s/m is there
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: certified for any motion, samples at 1000 Hz: needs 4.95449 N·s/m, the most at 18.8943 Hz; 5 N·s/m is
+//   guaranteed
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 3.5e-14 of the
-//   sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion the law gives out no more work than stored_energy() decreases by; rounding changes the
+//   force by at most 3.5e-14 of the sum of its terms' magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 1 guard against subnormal numbers; 4 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 3.4e-14 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 041e63869ced8fe985eef984dbc7ae607baf712997d1c3bd809f61ee96c87ecb. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 041e63869ced8fe985eef984dbc7ae607baf712997d1c3bd809f61ee96c87ecb. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -1,35 +1,36 @@
 // Presliding friction of ten springs with slips, which yield one after the other, every 0.1 mm
 //
 // source: beyond Gosline & Hayward 2009, whose Fig. 10 has one; values chosen here
-// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, except in
 //   samples in which a slip or a contact changes
 // brake: makes the damping that the next lines give for each slip, and the motor the rest of the force
-// behind Y1; Y2; Y3; Y4 and 6 more: velocity-free, the only damping of what slides is at the tool; b = 0 N·s/m
-//   stuck, 0 sliding
+// slip rule of Y1; Y2; Y3; Y4 and 6 more: velocity-free, while slips slide, no damper acts beyond those at the
+//   tool; b = 0 N·s/m stuck, 0 sliding
 // states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any damping of the brake
-//   that is not below its command: needs 0.775 N·s/m, counted sample by sample over a hold of up to 0.001 s, at
-//   least 0 N·s/m is there, 0.775 N·s/m more is missing in the brake's command
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: not certified: to be passive for any motion, whichever slips slide or stick and whether the tool
+//   touches or not, any brake that makes at least the commanded damping, the law needs 0.775 N·s/m by a proof
+//   sample by sample, for commands that are held for up to 0.001 s; 0 N·s/m is guaranteed; the brake's command
+//   would have to be 0.775 N·s/m larger
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
-//   energy; rounding adds at most 3.9e-15 of the sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion no part gives out more work than it has stored, and slips and contacts only dissipate
+//   energy; rounding changes the force by at most 3.9e-15 of the sum of its terms' magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 20 additions, 10 multiplications, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 10 guards against subnormal numbers; 23 numbers kept between
 //   samples
 // loops: laid out for registers of 16 bytes; sums in 8 parts, the same bits on every machine
 // rounding: the force of a mode is off by at most 5.6e-16 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// a2b38b672b92e39ce23cec96185e5176750ca00e8becc81f0dd2493cf7f6d267. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// a2b38b672b92e39ce23cec96185e5176750ca00e8becc81f0dd2493cf7f6d267. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

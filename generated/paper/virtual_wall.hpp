@@ -1,31 +1,31 @@
 // Virtual wall: a contact with a Kelvin element
 //
 // source: Gosline & Hayward 2009, section 5.1 and (9); stiffness and damping are chosen, not printed
-// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, except in
 //   samples in which a slip or a contact changes
 // brake: makes b = 5 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': dampers at the
 //   tool in parallel add
 // states: what the law remembers follows the measured position (position driven, as a network with a contact
 //   always is)
 // contact: at 0 m; brake and motor 0 while the tool is free
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
 // passivity: not certified: the brake leaves a free tool alone, so that in the sample of the touch only the
-//   device's own damping acts; 10.25 N·s/m of damping are needed, at least 0 is there
+//   device's own damping acts; 10.25 N·s/m of damping are needed, 0 is guaranteed
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
-//   energy; rounding adds at most 1.1e-15 of the sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion no part gives out more work than it has stored, and slips and contacts only dissipate
+//   energy; rounding changes the force by at most 1.1e-15 of the sum of its terms' magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 6 additions, 4 multiplications, 1 guard against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 3 numbers kept between
 //   samples
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 2f3f76a19a6f4d740be997cf81ac93892771e81493edbad696d8ba09ac2d73f7. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 2f3f76a19a6f4d740be997cf81ac93892771e81493edbad696d8ba09ac2d73f7. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

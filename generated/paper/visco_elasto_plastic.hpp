@@ -1,36 +1,36 @@
 // A needle that sticks and slides, Fig. 10
 //
 // source: Gosline & Hayward 2009, Fig. 10 and (21); the paper prints no values, these are chosen here
-// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, except in
 //   samples in which a slip or a contact changes
-// brake: makes b = 2.5 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
-//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in
-//   parallel add
-// behind Y: steady, the largest brake, 3.3 N s/m on average, of the laws that err by no more than 5 % in a run:
-//   2.04e-05 %; b = 0.8 N·s/m stuck, 0.8 sliding
+// brake: makes b = 2.5 N·s/m of damping and, in the parts with slips, what the next lines give, and the motor the
+//   rest of the force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the
+//   tool in parallel add
+// slip rule of Y: steady, of the slip rules with an error of up to 5 %, the one with the largest mean damping of
+//   the brake, 3.3 N s/m; its error is 2.04e-05 %; b = 0.8 N·s/m stuck, 0.8 sliding
 // states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: certified for any motion, whatever slides, sticks, touches or lets go, any damping of the brake that
-//   is not below its command: needs 1.3 N·s/m, counted sample by sample over a hold of up to 0.001 s, at least 3.3
-//   N·s/m is there
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: certified for any motion, whichever slips slide or stick and whether the tool touches or not, any
+//   brake that makes at least the commanded damping: needs 1.3 N·s/m by a proof sample by sample, for commands
+//   that are held for up to 0.001 s; 3.3 N·s/m is guaranteed
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
-//   energy; rounding adds at most 1.4e-15 of the sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion no part gives out more work than it has stored, and slips and contacts only dissipate
+//   energy; rounding changes the force by at most 1.4e-15 of the sum of its terms' magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 5 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 1 multiplication, 1 guard against subnormal numbers; 6 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 5.6e-16 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 641bd9a185539eb5b87be22748db07e1bc3e1f20f78caf1bfff209cfd4314851. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 641bd9a185539eb5b87be22748db07e1bc3e1f20f78caf1bfff209cfd4314851. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

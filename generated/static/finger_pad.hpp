@@ -3,57 +3,58 @@
 // source: A made-up example of several ports: Hertz contact of a pad that begins 1 mm in, a skin whose damping has
 //   a curve of its own, and a guide that rubs with a force in newtons, whatever the curves do.
 // valid: displacement -0.006 to 0.006 m, rate 0 to 0.2 m/s, frequency 0.1 to 20 Hz
-// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, except in
 //   samples in which a slip or a contact changes
 // port pad
-//   static curve: power 1.5, 2 N at 0.005 m, at rest; the network lies behind a map w of the position u, for which
-//   u stands in what follows: f = w' F(w), b = w'^2 b_w, with 0 <= w' <= 1.118; the curve's force is off by at
-//   most 0.047 % of the largest, and w' by 14 % of its largest
+//   static curve: power 1.5, 2 N at 0.005 m, at rest; the network is stretched by w(u) instead of the position u,
+//   and u in the lines below stands for that w: f = w' F(w), b = w'^2 b_w, with 0 <= w' <= 1.118; the curve's
+//   force is off by at most 0.047 % of the largest, and w' by 14 % of its largest
 //   brake: makes b = 0 N·s/m of damping, and the motor the rest of the force; by the rule 'faithful': without a
-//   device 'faithful' is the paper's rule: in series, damper_3 turns 100 % of the energy into heat at low
-//   frequency, and the brake follows it; with the contact no more than the feedthrough damping, so that the motor
+//   device 'faithful' is the paper's rule: in series, damper_3 dissipates 100 % of the energy at low frequency, so
+//   that the brake makes its 20 N s/m; with the contact no more than the feedthrough damping, so that the motor
 //   compensates nothing
 //   states: what the law remembers follows the measured position (position driven, as a network with a contact
 //   always is)
 //   contact: at 0.001 m; brake and motor 0 while the tool is free
-//   late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
+//   late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
 // port skin
-//   static curve: power 2, 1 N at 0.005 m, at once; the network lies behind a map w of the position u, for which u
-//   stands in what follows: f = w' F(w), b = w'^2 b_w, with 0 <= w' <= 1.095; the curve's force is off by at most
-//   0.0036 % of the largest, and w' by 2.3 % of its largest
+//   static curve: power 2, 1 N at 0.005 m, at once; the network is stretched by w(u) instead of the position u,
+//   and u in the lines below stands for that w: f = w' F(w), b = w'^2 b_w, with 0 <= w' <= 1.095; the curve's
+//   force is off by at most 0.0036 % of the largest, and w' by 2.3 % of its largest
 //   brake: makes b = 3 N·s/m of damping, and the motor the rest of the force; by the rule 'faithful': without a
-//   device 'faithful' is the paper's rule: in series, damper_2 turns 100 % of the energy into heat at low
-//   frequency, and the brake follows it
+//   device 'faithful' is the paper's rule: in series, damper_2 dissipates 100 % of the energy at low frequency, so
+//   that the brake makes its 3 N s/m
 //   states: what the law remembers follows the measured position (position driven, as a network with a static
 //   curve always is)
-//   late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
+//   late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
 // port guide
-//   brake: makes b = 2 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
-//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in
-//   parallel add
-//   behind slip_3: velocity-free, the only damping of what slides is at the tool; b = 0 N·s/m stuck, 0 sliding
+//   brake: makes b = 2 N·s/m of damping and, in the parts with slips, what the next lines give, and the motor the
+//   rest of the force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the
+//   tool in parallel add
+//   slip rule of slip_3: velocity-free, while slips slide, no damper acts beyond those at the tool; b = 0 N·s/m
+//   stuck, 0 sliding
 //   states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-//   late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
+//   late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
 // passivity: not certified: port 'pad': a static curve's steepness changes while the tool moves, and no device
 //   states how fast that is
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 35 additions, 22 multiplications, 1 guard against subnormal numbers
 // cost of update(): 2 additions, 4 multiplications, 3 guards against subnormal numbers; 14 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 3.4e-14 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 66e4a5a3f05e89417619d2d068a45b94e6ea144b32d1b93524152e6a0cac47a4. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 66e4a5a3f05e89417619d2d068a45b94e6ea144b32d1b93524152e6a0cac47a4. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -2,32 +2,33 @@
 //
 // source: assumed: 4 N m at 30 degrees, and four times as stiff there as at 10 degrees
 // valid: displacement -0.5235987755982989 to 0.5235987755982989 rad, rate 0 to 1 rad/s
-// static curve: exponential, 4 1/rad, 4 N m at 0.523599 rad, at rest; the network lies behind a map w of the
-//   position u, for which u stands in what follows: f = w' F(w), b = w'^2 b_w, with 0.6704 <= w' <= 1.506; the
-//   curve's force is off by at most 2.5e-05 % of the largest, and w' by 9.4e-06 % of its largest
+// static curve: exponential, 4 1/rad, 4 N m at 0.523599 rad, at rest; the network is stretched by w(u) instead of
+//   the position u, and u in the lines below stands for that w: f = w' F(w), b = w'^2 b_w, with 0.6704 <= w' <=
+//   1.506; the curve's force is off by at most 2.5e-05 % of the largest, and w' by 9.4e-06 % of its largest
 // scheme: exact at 1000 Hz, double: a motion whose w is straight between two samples is answered exactly
 // brake: makes b = 0.42000000000000004 N·m·s/rad of damping, and the motor the rest of the force; by the rule
-//   'paper': in series, damper_3 turns 100 % of the energy into heat at low frequency, and the brake follows it
+//   'paper': in series, damper_3 dissipates 100 % of the energy at low frequency, so that the brake makes its 0.4
+//   N m s/rad
 // states: what the law remembers follows the measured position (position driven, as a network with a static curve
 //   always is)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
 // passivity: not certified: a static curve's steepness changes while the tool moves, and no device states how fast
 //   that is
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 13 additions, 12 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 1 guard against subnormal numbers; 5 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 6.7e-14 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// b9951e4d33b7bf9ac942c91926eb8d20ff50467dd6ffdebe854aa5750b8f4286. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// b9951e4d33b7bf9ac942c91926eb8d20ff50467dd6ffdebe854aa5750b8f4286. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -3,35 +3,35 @@
 // source: Hertz: F = 4/3 E/(1 - nu^2) sqrt(R) d^(3/2) with E = 50 kPa, nu = 0.5, R = 10 mm is 2.7 N at 4.5 mm; the
 //   relaxation is assumed
 // valid: displacement -0.006 to 0.006 m, rate 0 to 0.1 m/s
-// static curve: power 1.5, 2.68328 N at 0.0045 m, at rest; the network lies behind a map w of the position u, for
-//   which u stands in what follows: f = w' F(w), b = w'^2 b_w, with 0 <= w' <= 1.467; the curve's force is off by
-//   at most 0.047 % of the largest, and w' by 14 % of its largest
-// scheme: exact at 1000 Hz, double: a motion whose w is straight between two samples is answered exactly, but for
-//   samples in which a slip or a contact changes
+// static curve: power 1.5, 2.68328 N at 0.0045 m, at rest; the network is stretched by w(u) instead of the
+//   position u, and u in the lines below stands for that w: f = w' F(w), b = w'^2 b_w, with 0 <= w' <= 1.467; the
+//   curve's force is off by at most 0.047 % of the largest, and w' by 14 % of its largest
+// scheme: exact at 1000 Hz, double: a motion whose w is straight between two samples is answered exactly, except
+//   in samples in which a slip or a contact changes
 // brake: makes b = 0.4 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series,
-//   damper_4 turns 100 % of the energy into heat at low frequency, and the brake follows it; with the contact no
-//   more than the feedthrough damping, so that the motor compensates nothing
+//   damper_4 dissipates 100 % of the energy at low frequency, so that the brake makes its 40 N s/m; with the
+//   contact no more than the feedthrough damping, so that the motor compensates nothing
 // states: what the law remembers follows the measured position (position driven, as a network with a contact
 //   always is)
 // contact: at 0 m; brake and motor 0 while the tool is free
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
 // passivity: not certified: a static curve's steepness changes while the tool moves, and no device states how fast
 //   that is
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 18 additions, 14 multiplications, 1 guard against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 1 guard against subnormal numbers; 6 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 6.7e-14 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// d72af726f13eba3ecb7e05e5c31c1ac3059b6049548ef36e99c08b91a0d88792. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// d72af726f13eba3ecb7e05e5c31c1ac3059b6049548ef36e99c08b91a0d88792. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

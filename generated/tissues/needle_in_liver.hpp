@@ -6,37 +6,38 @@
 //   kPa, eta 7.3 Pa s; at a shaft of radius a = 0.6 mm, l = 30 mm deep, in tissue of radius R = 20 mm: f = 2 pi G
 //   l u / ln(R/a), so 0.05375 m times each. The needle pushes and is not drawn out: the contact lets it go
 // valid: displacement 0 to 0.03 m, rate 0 to 0.02 m/s
-// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, except in
 //   samples in which a slip or a contact changes
-// brake: makes b = 5 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
-//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: in series, B2 turns 100 % of
-//   the energy into heat at low frequency, and the brake follows it; with the contact no more than the feedthrough
-//   damping, so that the motor compensates nothing
-// behind friction: velocity-free, the only damping of what slides is at the tool; b = 0 N·s/m stuck, 0 sliding
+// brake: makes b = 5 N·s/m of damping and, in the parts with slips, what the next lines give, and the motor the
+//   rest of the force; by the rule 'faithful': without a device 'faithful' is the paper's rule: in series, B2
+//   dissipates 100 % of the energy at low frequency, so that the brake makes its 0.392 N s/m; with the contact no
+//   more than the feedthrough damping, so that the motor compensates nothing
+// slip rule of friction: velocity-free, while slips slide, no damper acts beyond those at the tool; b = 0 N·s/m
+//   stuck, 0 sliding
 // states: what the law remembers follows the measured position (position driven, as a network with a contact
 //   always is)
 // contact: at 0 m; brake and motor 0 while the tool is free
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
 // passivity: not certified: the brake leaves a free tool alone, so that in the sample of the touch only the
-//   device's own damping acts; 10.5838 N·s/m of damping are needed, at least 0 is there
+//   device's own damping acts; 10.5838 N·s/m of damping are needed, 0 is guaranteed
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
-//   energy; rounding adds at most 9.5e-15 of the sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion no part gives out more work than it has stored, and slips and contacts only dissipate
+//   energy; rounding changes the force by at most 9.5e-15 of the sum of its terms' magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 7 additions, 3 multiplications, 1 guard against subnormal numbers
 //   and at most 61 additions, multiplications and divisions for the coupled slips
 // cost of update(): 2 additions, 3 multiplications, 2 guards against subnormal numbers; 7 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 1.6e-15 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 04a5eed649deccadd8600587906cac37a240dd7aaf4c91c8a82b95348dcce7e3. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 04a5eed649deccadd8600587906cac37a240dd7aaf4c91c8a82b95348dcce7e3. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

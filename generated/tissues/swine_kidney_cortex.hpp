@@ -9,24 +9,24 @@
 //   the tool in parallel add
 // states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: certified for any motion, any damping of the brake that is not below its command: needs 0.0362 N·s/m,
-//   counted sample by sample over a hold of up to 0.001 s, at least 0.0592 N·s/m is there
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: certified for any motion, any brake that makes at least the commanded damping: needs 0.0362 N·s/m by
+//   a proof sample by sample, for commands that are held for up to 0.001 s; 0.0592 N·s/m is guaranteed
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 8.9e-16 of the
-//   sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion the law gives out no more work than stored_energy() decreases by; rounding changes the
+//   force by at most 8.9e-16 of the sum of its terms' magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 0 additions, 1 multiplication, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 2 numbers kept between
 //   samples
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 07664a020f0874ad99e58b2c5c9f3fc29f1cf354dcf841d1d0d98d0feb823afb. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 07664a020f0874ad99e58b2c5c9f3fc29f1cf354dcf841d1d0d98d0feb823afb. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -1,30 +1,31 @@
 // A needle that sticks in two layers, which slide on each other: a ring of three slips, frictions and stiffness change while it runs
 //
-// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, except in
 //   samples in which a slip or a contact changes
-// brake: makes b = 3 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
-//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in
-//   parallel add
-// behind skin_grip, muscle_grip, fascia: velocity-free, parameters change while it runs; b is that of their
+// brake: makes b = 3 N·s/m of damping and, in the parts with slips, what the next lines give, and the motor the
+//   rest of the force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the
+//   tool in parallel add
+// slip rule of skin_grip, muscle_grip, fascia: velocity-free, parameters change while it runs; b is that of their
 //   default values
 // states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: certified for any motion, whatever slides, sticks, touches or lets go, any values within their ranges
-//   between changes, any damping of the brake that is not below its command: needs 2 N·s/m, counted sample by
-//   sample over a hold of up to 0.001 s, at least 3 N·s/m is there
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: certified for any motion, whichever slips slide or stick and whether the tool touches or not, any
+//   values within their ranges between changes, any brake that makes at least the commanded damping: needs 2 N·s/m
+//   by a proof sample by sample, for commands that are held for up to 0.001 s; 3 N·s/m is guaranteed
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 1.3e-12 of the sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion, and for any values within their ranges, the law gives out no more work than
+//   stored_energy() decreases by; rounding changes the force by at most 1.3e-12 of the sum of its terms'
+//   magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // tunable: skin_friction (0 to 3 N), muscle_friction (0 to 3 N), muscle_stiffness (100 to 4000 N/m)
-//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
-//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   set() itself injects no energy: raising a stiffness under load raises the force only as far as energy that
+//   other springs release allows; but the motor still holds the force of the last sample, so call set() right
 //   after step() and take the command from output() of the same sample
-//   b [N·s/m] follows drag
+//   b [N·s/m] after set(): drag
 // cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
 //   and at most 11370 additions, multiplications and divisions for the coupled slips
 // cost of update(): 8 additions, 8 multiplications, 4 guards against subnormal numbers; 20 numbers kept between
@@ -33,8 +34,8 @@
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
-// f0efa940f84bdf7de39f3046f7db636a23508bba43641aab1bc67b5c837ec98b. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// f0efa940f84bdf7de39f3046f7db636a23508bba43641aab1bc67b5c837ec98b. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -220,7 +221,7 @@ class layers_tunable {
     network_skin_grip_3_to_ground_ = muscle_elasticity_to_muscle_rest_answer_alone -
         muscle_elasticity_to_muscle_rest_least_answer > 0 ? muscle_elasticity_to_muscle_rest_answer_alone :
         muscle_elasticity_to_muscle_rest_least_answer;
-    // b follows drag
+    // b: drag
     steady_brake_ = drag;
     // b∞ − b
     velocity_gain_ = drag - steady_brake_;
@@ -379,7 +380,7 @@ class layers_tunable {
   scalar sampled_network_skin_grip_end_1_moved_ = 0;  // displacement of an inner end, at this sample [m]
   scalar sampled_network_skin_grip_end_2_moved_ = 0;  // displacement of an inner end, at this sample [m]
   scalar sampled_network_skin_grip_end_3_moved_ = 0;  // displacement of an inner end, at this sample [m]
-  scalar resting_brake_ = 0;  // b of the parts behind slips that hold [N·s/m]
+  scalar resting_brake_ = 0;  // b of the parts with slips that stick [N·s/m]
   scalar last_position_ = 0;  // u of the sample before [m]
   // ends, lowest and highest force of each slip; inner ends come first, then tool and ground
   dashpot::slip_link<scalar> network_skin_grip_links_[3] = {

@@ -3,26 +3,28 @@
 // source: Gosline & Hayward 2009, Fig. 5; the ranges are ours
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
-//   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, damper_3 turns 100
-//   % of the energy into heat at low frequency, and the brake follows it
+//   dissipates 100 % of the energy at low frequency, so that the brake makes its 5 N s/m; in series, damper_3
+//   dissipates 100 % of the energy at low frequency, so that the brake makes its 6 N s/m
 // states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: not certified for any motion, any values within their ranges between changes, any damping of the
-//   brake that is not below its command: needs 5.5652 N·s/m, counted sample by sample over a hold of up to 0.001
-//   s, at least 5.5 N·s/m is there, 0.0652 N·s/m more is missing in the brake's command
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: not certified: to be passive for any motion, any values within their ranges between changes, any
+//   brake that makes at least the commanded damping, the law needs 5.5652 N·s/m by a proof sample by sample, for
+//   commands that are held for up to 0.001 s; 5.5 N·s/m is guaranteed; the brake's command would have to be 0.0652
+//   N·s/m larger
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 3.9e-15 of the sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion, and for any values within their ranges, the law gives out no more work than
+//   stored_energy() decreases by; rounding changes the force by at most 3.9e-15 of the sum of its terms'
+//   magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
-//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
-//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   set() itself injects no energy: raising a stiffness under load raises the force only as far as energy that
+//   other springs release allows; but the motor still holds the force of the last sample, so call set() right
 //   after step() and take the command from output() of the same sample
-//   b [N·s/m] follows B1 + damper_3
+//   b [N·s/m] after set(): B1 + damper_3
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 15 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers kept between
 //   samples
@@ -30,8 +32,8 @@
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 5c194d7008f5fe1bb0e1c8f01d1156815ca3b1ae3e5903a351efbfbd8297cdca. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 5c194d7008f5fe1bb0e1c8f01d1156815ca3b1ae3e5903a351efbfbd8297cdca. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -191,7 +193,7 @@ class second_order_maxwell_tunable {
     // g of all that joins tool and ground without a slip
     step_stiffness_ = K3 + K1_ * B1_spring_2_kept_ + K2 * damper_3_K2_kept_;
     B1_damper_3_sum_ = B1_damper_3 + B2_;
-    // b follows B1 + damper_3
+    // b: B1 + damper_3
     steady_brake_ = B1_damper_3_sum_;
     // b∞ − b
     velocity_gain_ = no_damping - steady_brake_;

@@ -2,29 +2,31 @@
 //
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 1625.577561857746 N·s/m of damping, and the motor the rest of the force; by the rule 'paper':
-//   in series, muscle_damper_1 turns 100 % of the energy into heat at low frequency, and the brake follows it; in
-//   series, muscle_damper_2 turns 100 % of the energy into heat at low frequency, and the brake follows it; in
-//   series, muscle_damper_3 turns 100 % of the energy into heat at low frequency, and the brake follows it; in
-//   series, muscle_damper_4 turns 100 % of the energy into heat at low frequency, and the brake follows it; and 1
-//   more series connections likewise
+//   in series, muscle_damper_1 dissipates 100 % of the energy at low frequency, so that the brake makes its
+//   1515.38 N s/m; in series, muscle_damper_2 dissipates 100 % of the energy at low frequency, so that the brake
+//   makes its 82.3678 N s/m; in series, muscle_damper_3 dissipates 100 % of the energy at low frequency, so that
+//   the brake makes its 20.8013 N s/m; in series, muscle_damper_4 dissipates 100 % of the energy at low frequency,
+//   so that the brake makes its 5.25321 N s/m; and 1 more series connections likewise
 // states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: not certified for any motion, any values within their ranges between changes, any damping of the
-//   brake that is not below its command: needs 1.78601 N·s/m, counted sample by sample over a hold of up to 0.001
-//   s, at least 0 N·s/m is there, 1.78601 N·s/m more is missing in the brake's command
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: not certified: to be passive for any motion, any values within their ranges between changes, any
+//   brake that makes at least the commanded damping, the law needs 1.78601 N·s/m by a proof sample by sample, for
+//   commands that are held for up to 0.001 s; 0 N·s/m is guaranteed; the brake's command would have to be 1.78601
+//   N·s/m larger
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 6.9e-15 of the sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion, and for any values within their ranges, the law gives out no more work than
+//   stored_energy() decreases by; rounding changes the force by at most 6.9e-15 of the sum of its terms'
+//   magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // tunable: K (0 to 400 N/m)
-//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
-//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   set() itself injects no energy: raising a stiffness under load raises the force only as far as energy that
+//   other springs release allows; but the motor still holds the force of the last sample, so call set() right
 //   after step() and take the command from output() of the same sample
-//   b [N·s/m] follows muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
+//   b [N·s/m] after set(): muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 27 additions, 30 multiplications, 6 guards against subnormal numbers; 13 numbers kept between
 //   samples
@@ -32,8 +34,8 @@
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
-// ad65d63c24093f1299b3ee1f326d3cb11e6151cf24830b048ab36de99b135cf8. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// ad65d63c24093f1299b3ee1f326d3cb11e6151cf24830b048ab36de99b135cf8. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -300,7 +302,7 @@ class springpot_tunable {
     muscle_damper_1_to_muscle_damper_5_sum_ = muscle_damper_1_to_muscle_damper_5_share * K_ +
         muscle_damper_1_to_muscle_damper_5_share_2 * K_ + muscle_damper_1_to_muscle_damper_5_share_3 * K_ +
         muscle_damper_1_to_muscle_damper_5_share_4 * K_ + muscle_damper_1_to_muscle_damper_5_share_5 * K_;
-    // b follows muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
+    // b: muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
     steady_brake_ = muscle_damper_1_to_muscle_damper_5_sum_;
     // b∞ − b
     velocity_gain_ = no_damping - steady_brake_;

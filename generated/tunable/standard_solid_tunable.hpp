@@ -1,28 +1,30 @@
 // A Kelvin element in series with a spring: a tunable that mixes with its relaxation
 //
-// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for the
-//   elements that are told below
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, except the
+//   elements listed below under 'backward Euler'
 // brake: makes b = 8 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series,
-//   (spring_1 | B1) turns 100 % of the energy into heat at low frequency, and the brake follows it
+//   (spring_1 | B1) dissipates 100 % of the energy at low frequency, so that the brake makes its 8 N s/m
 // states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: not certified for any motion, any values within their ranges between changes, any damping of the
-//   brake that is not below its command: needs 16.4 N·s/m, counted sample by sample over a hold of up to 0.001 s,
-//   at least 8 N·s/m is there, 8.4 N·s/m more is missing in the brake's command
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: not certified: to be passive for any motion, any values within their ranges between changes, any
+//   brake that makes at least the commanded damping, the law needs 16.4 N·s/m by a proof sample by sample, for
+//   commands that are held for up to 0.001 s; 8 N·s/m is guaranteed; the brake's command would have to be 8.4
+//   N·s/m larger
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 3.1e-15 of the sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion, and for any values within their ranges, the law gives out no more work than
+//   stored_energy() decreases by; rounding changes the force by at most 3.1e-15 of the sum of its terms'
+//   magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // tunable: K1 (50 to 800 N/m)
-//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
-//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   set() itself injects no energy: raising a stiffness under load raises the force only as far as energy that
+//   other springs release allows; but the motor still holds the force of the last sample, so call set() right
 //   after step() and take the command from output() of the same sample
-//   b [N·s/m] follows B1
-//   by backward Euler, since their relaxations mix with a tunable or at several slips: spring_1, B1, K2
+//   b [N·s/m] after set(): B1
+//   by backward Euler, because their relaxations depend on a tunable or on several slips: spring_1, B1, K2
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 14 additions, 9 multiplications, 3 guards against subnormal numbers; 10 numbers kept between
 //   samples
@@ -30,8 +32,8 @@
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
-// b57d94149fbc717b05578019de4d32e026e1596c4f3a169d2568b21102a47de3. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// b57d94149fbc717b05578019de4d32e026e1596c4f3a169d2568b21102a47de3. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -190,7 +192,7 @@ class standard_solid_tunable {
     // b∞ of the meshes
     mesh_feedthrough_ = zero;
     step_stiffness_ = springs_stiffness_ + mesh_stiffness_;
-    // b follows B1
+    // b: B1
     steady_brake_ = B1;
     // b∞ − b
     velocity_gain_ = mesh_feedthrough_ - steady_brake_;

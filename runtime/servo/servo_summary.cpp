@@ -53,9 +53,8 @@ std::string losses(const servo_summary& summary) {
 
 std::string shedding(const servo_summary& summary) {
   if (summary.shed == 0) return "";
-  return print(
-      "shed      %llu commands were beyond the motor; in one sample the forces kept at least %.4g of themselves\n",
-      static_cast<unsigned long long>(summary.shed), summary.least_share);
+  return print("shed      %llu commands were beyond the motor; the forces were scaled down to %.4g at least\n",
+               static_cast<unsigned long long>(summary.shed), summary.least_share);
 }
 
 // Of a balance that was below zero: what may have come out, beside what the springs held before.

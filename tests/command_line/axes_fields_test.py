@@ -59,7 +59,7 @@ class AxesFieldsTest(CommandTest):
         self.write("prompt.json", json.dumps(prompt_arm()))
         network = self.write("turning.json", json.dumps(field_of("turning", 1.5, 0.7)))
         said = self.text_of(network, "--device", "prompt.json")
-        self.assertIn("behind a gate", said)
+        self.assertIn("a torque limiter (gate)", said)
         self.assertIn("100 % of it in the mean", said)
         told = self.explained(network, "--device", "prompt.json")
         self.assertTrue(told["certified"])
@@ -122,7 +122,7 @@ class AxesFieldsTest(CommandTest):
                                         (arm, "by this rule", ["--decomposition", "virtual"])):
             with self.subTest(reason=reason):
                 self.write("device.json", json.dumps(device))
-                self.assertIn("no gate lets the brakes' own share of the field pay, since",
+                self.assertIn("no torque limiter (gate) keeps it to what the brakes dissipate, because",
                               self.text_of(turning, "--device", "device.json", *options))
                 self.assertIn(reason, self.text_of(turning, "--device", "device.json", *options))
                 told, other = (self.explained(network, "--device", "device.json", *options)

@@ -178,10 +178,10 @@ class AxesMotion(CommandTest):
             # The staircase of the motor is felt as the mean of two steps.
             self.assertAlmostEqual(row["felt_torque_1"], past + added * speed, delta=1e-4)
         said = self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv").stdout
-        self.assertIn(f"; of it {added:.4g} are there for passivity alone\n", said)
+        self.assertIn(f"; {added:.4g} of it are for passivity alone\n", said)
         for words in ("net on arm: 2001 samples at 2000 Hz, brakes by the rule diagonal\n", "brake 2 is told ",
                       "the network's force on joint 1: rms ",
-                      "error of what is felt at the tip: rms ", "energy: ", "log: felt.csv"):
+                      "felt error at the tip: rms ", "energy: ", "log: felt.csv"):
             self.assertIn(words, said)
 
     def test_a_contact(self):

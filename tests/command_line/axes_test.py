@@ -398,7 +398,7 @@ class AxesTest(CommandTest):
         self.assertGreater(late["damping_for_lag"], 0)
         for network, device, reason in ((FIELD, "slow.json", "slew"),
                                         ("thick.json", PANTOGRAPH, "more than its brakes"),
-                                        (WALL, PANTOGRAPH, "lets go by a velocity estimate")):
+                                        (WALL, PANTOGRAPH, "the end of the contact is computed from the estimated velocity")):
             text = " ".join(self.dashpot("explain", network, "--device", device).stdout.split())
             self.assertIn("not certified", text)
             self.assertIn(reason, text)
@@ -407,12 +407,12 @@ class AxesTest(CommandTest):
         self.assertIn("[axes-not-certified]", refused)
         # What the refusal asks for is enough.
         stiff = json.loads(PANTOGRAPH.read_text())
-        stiff["mechanics"]["damping"] = json.loads(re.search(r'would do: "damping": (\[.*?\]) in "mechanics"',
+        stiff["mechanics"]["damping"] = json.loads(re.search(r'would be enough: "damping": (\[.*?\]) in "mechanics"',
                                                              refused)[1])
         self.write("stiff.json", json.dumps(stiff))
         self.dashpot("compile", "thick.json", "--device", "stiff.json", "-o", "out")
         # And hardly more: the search halves what is missing four times, and rounds up to three digits.
-        own = [float(number) for number in re.search(r"of their own, in place of (\S+) and (\S+), would do",
+        own = [float(number) for number in re.search(r"of their own, in place of (\S+) and (\S+), would be enough",
                                                      " ".join(refused.split())).groups()]
         enough = [float(damping.split()[0]) for damping in stiff["mechanics"]["damping"]]
         stiff["mechanics"]["damping"] = [f"{least + 0.85 * (most - least)} N m s/rad"
@@ -439,7 +439,8 @@ class AxesTest(CommandTest):
 
         refused = compiled([2.5e-3] * len(device["brakes"]), INPUT_REFUSED, advice=True)
         self.assertIn("[axes-not-certified]", refused)
-        told = re.search(r"note: brakes of (.*) N m s/rad, in place of .*, would do: ", " ".join(refused.split()))
+        told = re.search(r"note: brakes of (.*) N m s/rad, in place of .*, would be enough: ",
+                         " ".join(refused.split()))
         limits = [float(limit) for limit in told[1].split(" and ")]
         compiled(limits)
         # The search halves a factor of two four times, and two digits are told.
@@ -505,7 +506,7 @@ class AxesTest(CommandTest):
     def test_what_is_added_is_told_at_the_tip(self):
         """Fails if damping that is added to the brakes is not what the hand feels of it where it feels most."""
         text = " ".join(self.dashpot("explain", FIELD, "--device", PANTOGRAPH).stdout.split())
-        told = float(re.search(r"felt at the tip: up to (\S+) N s/m more", text)[1])
+        told = float(re.search(r"felt at the tip as up to (\S+) N s/m more", text)[1])
         added = json.loads(self.dashpot("explain", FIELD, "--device", PANTOGRAPH, "--json").stdout)["added_damping"]
         (left, right), (low, high) = ([float(end.split()[0]) * 1e-3 for end in side]
                                       for side in json.loads(
@@ -559,7 +560,7 @@ class AxesTest(CommandTest):
             self.write("floor.json", json.dumps({"dashpot": 1, "axes": 2, "name": "soft_floor", "ports": [port]}))
             with self.subTest(network=network, contact=contact, late=device is late, writing=device is writing):
                 told = self.dashpot("compile", "floor.json", "--device", "device.json", "-o", "out").stderr
-                self.assertEqual("note: ports that can be certified: " in told, not is_certified)
+                self.assertEqual("note: a port can be certified if: " in told, not is_certified)
                 self.assertEqual("[nothing-proved]" in told, not is_certified)
                 self.assertEqual(self.dashpot("check", "floor.json", "--device", "device.json").stderr, told)
 
@@ -601,7 +602,7 @@ class AxesTest(CommandTest):
         self.assertNotIn("[nothing-proved]", done.stderr)
         uncertified = self.dashpot("run", BALL, "--device", PANTOGRAPH, "--fast", "--for", "0.01")
         self.assertIn("[nothing-proved]", uncertified.stderr)
-        self.assertIn("note: ports that can be certified: ", uncertified.stderr)
+        self.assertIn("note: a port can be certified if: ", uncertified.stderr)
         weak = json.loads(PANTOGRAPH.read_text())
         for brake in weak["brakes"]:
             brake.update(max_damping="3 mN m s/rad")

@@ -108,7 +108,7 @@ class Exchange(CommandTest):
         self.write("active.inp", "*Viscoelastic, time=PRONY\n0.7, 0., 0.1\n0.4, 0., 1.\n")
         active = self.refused("import", "active.inp", "--from", "abaqus", "--stiffness", "1 N/m", "-o", "x.json",
                               code="prony-sum-above-one")
-        self.assertIn("the nearest series that creates none", active.stderr)
+        self.assertIn("the nearest passive series", active.stderr)
         self.assertNotIn("x.json", self.files())
 
     def test_what_is_no_series_is_not_exported(self):

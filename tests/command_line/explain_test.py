@@ -89,8 +89,7 @@ class BehindAContact(CommandTest):
     def test_why_the_brake_does_nothing(self):
         """Fails if b = 0 behind a contact goes unexplained, or is explained where the brake has something to do."""
         said = self.explained('{ "series": [ { "spring": 50 }, { "damper": 5 } ] }')
-        self.assertIn("why b is 0 behind a contact the brake may take no more than the feedthrough damping, and that "
-                      "is 0 here", said)
+        self.assertIn("why b is 0 with a contact b is at most the feedthrough damping, and that is 0 here", said)
         self.assertIn("without 'contact' it could take up to 5 N s/m", said)
         said = self.explained('{ "parallel": [ { "spring": 50 }, { "damper": 5 } ] }')
         self.assertNotIn("why b is 0", said)
@@ -176,7 +175,7 @@ class Json(CommandTest):
         self.assertLess(choice["over_assumed"]["least_damping"], faithful["damping"])
         self.assertGreater(choice["over_assumed"]["most_damping"], faithful["damping"])
         for words in ["With the paper's rule",
-                      "The brake does little, because of the network's damping only 0 N s/m act at once",
+                      "The brake has little to do: only 0 N s/m of the network's damping act at the tool",
                       "off by up to 20 %"]:
             self.assertIn(words, choice["in_words"])
         text = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH).stdout
@@ -245,7 +244,7 @@ class Json(CommandTest):
         done = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH, "--decomposition", "paper", "--state-input",
                             "velocity")
         self.assertIn("[felt-error]", done.stderr)
-        options, error = re.search(r"'(--.*)' has been tried: it errs by up to ([0-9.]+) %", done.stderr).groups()
+        options, error = re.search(r"with '(--.*)' it deviates by up to ([0-9.]+) %", done.stderr).groups()
         found = self.explained(FIG_5, "--device", PANTOGRAPH, "--state-input", "velocity", *options.split())
         (chosen,) = (c for c in found["candidates"] if c["name"] == found["chosen"])
         self.assertEqual(f"{100 * chosen['largest_error']:.3g}", error)
@@ -254,7 +253,8 @@ class Json(CommandTest):
         """Fails if the error of the default is not reported, or if a device with the suggested change errs by anything
         else."""
         said = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH).stderr
-        error = float(re.search(r"with 'faithful' what is felt errs by up to (\S+) % in the band", said).group(1))
+        error = float(re.search(r"with 'faithful' the felt force deviates from the network's by up to (\S+) % in the "
+                                "band", said).group(1))
         told = re.search(r"(\S+) % without the amplifier's lag", said).group(1)
         self.assertLess(float(told), 0.9 * error)
         device = json.loads(PANTOGRAPH.read_text())
@@ -296,7 +296,8 @@ class Json(CommandTest):
     def felt_where_slips_give_way(self, *arguments):
         """The error that the warning names [%], and all that is said."""
         said = self.dashpot("explain", *arguments).stderr
-        return float(re.search(r"errs by up to (\S+) % in runs around yield", said).group(1)), said
+        return float(re.search(r"where slips yield, the felt force deviates from the network's by up to (\S+) % in the "
+                               "test motions", said).group(1)), said
 
     def test_where_slips_give_way_another_choice_is_named(self):
         """Fails if a law that was asked for errs without a warning, or if the choice that is said to err less does
@@ -305,7 +306,7 @@ class Json(CommandTest):
         self.write("stage.json", json.dumps(self.STAGE))
         arguments = ["skin.json", "--device", "stage.json"]
         error, said = self.felt_where_slips_give_way(*arguments, "--decomposition", "velocity-free")
-        options, told = re.search(r"'(--.*)' has been tried: in these runs it errs by up to (\S+) %", said).groups()
+        options, told = re.search(r"with '(--.*)' it deviates by up to (\S+) % in these motions", said).groups()
         self.assertLess(float(told), 0.9 * error)
         self.assertEqual(self.felt_where_slips_give_way(*arguments, *options.split())[0], float(told))
 
@@ -319,7 +320,7 @@ class Json(CommandTest):
         device["brake"].update(tolerance="0 %", residual_damping="0 N m s/rad", coil_lag="0 s")
         self.write("slow.json", json.dumps(device))
         error, said = self.felt_where_slips_give_way("skin.json", "--device", "slow.json")
-        rate, told = re.search(r"at a rate of (\S+) Hz it would err by up to (\S+) %", said).groups()
+        rate, told = re.search(r"at a rate of (\S+) Hz the felt error would be up to (\S+) %", said).groups()
         self.assertLess(float(told), 0.9 * error)
         device["loop"]["rate"] = f"{rate} Hz"
         self.write("faster.json", json.dumps(device))
@@ -353,7 +354,7 @@ class Json(CommandTest):
             "mechanics": {"inertia": "0.3 g m^2", "damping": "200 uN m s/rad", "coulomb_friction": "5 mN m"}}))
         found = self.explained("needle.json", "--device", "handle.json")
         (paper,) = (c for c in found["candidates"] if c["name"] == "paper")
-        told = re.search(r"the paper's rule, b = 1 N s/m, it errs by (\S+) %, (\S+) N s/m have to be added",
+        told = re.search(r"the paper's rule, b = 1 N s/m, the felt error is (\S+) %, (\S+) N s/m have to be added",
                          found["choice"]["in_words"]).groups()
         self.assertEqual(told, (f"{100 * paper['largest_error']:.3g}", f"{paper['minimum_damping']:.3g}"))
         asked = self.explained("needle.json", "--device", "handle.json", "--decomposition", "paper")
@@ -374,12 +375,12 @@ class Json(CommandTest):
         row = next(row for row in json.loads(done.stdout)["candidates"] if row["name"] == "faithful")
         self.assertGreater(row["minimum_damping"], 0)
         told = self.dashpot("explain", "needle.json", "--device", "late.json").stdout
-        added = float(re.search(r"of the brake's command (\S+) N s/m are for passivity", told).group(1))
+        added = float(re.search(r"(\S+) N s/m of the brake's command are for passivity", told).group(1))
         self.assertAlmostEqual(added, row["minimum_damping"], delta=1e-5 * added)
 
     def test_what_is_proved_at_the_motors_limit_is_told(self):
         """Fails if a choice, or damping of the device's own, that is said to be proved at the motor's limit is not."""
-        proved = "this is passive with the"
+        proved = "that is passive with the"
         done = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH)
         self.assertNotIn(proved, " ".join(done.stdout.split()))
         options = re.search(r"'(--.*)' has been tried and is proved there too", done.stderr).group(1)
@@ -391,7 +392,7 @@ class Json(CommandTest):
         self.assertIn(proved, " ".join(self.dashpot("explain", FIG_5, "--device", "damped.json").stdout.split()))
         found = self.explained(FIG_5, "--device", "damped.json")
         (chosen,) = (c for c in found["candidates"] if c["name"] == found["chosen"])
-        told = re.search(r'in "mechanics" of the device file; what is felt would err by up to (\S+) %',
+        told = re.search(r'in "mechanics" of the device file; the felt error would be up to (\S+) %',
                          done.stderr).group(1)
         self.assertEqual(f"{100 * chosen['largest_error']:.3g}", told)
 
@@ -458,7 +459,7 @@ class Json(CommandTest):
         self.write("late.json", json.dumps(self.LATE))
         self.write("tuned.json", self.TUNED)
         chosen, found = self.chosen_row("tuned.json", "--device", "late.json")
-        self.assertIn(" of those tried ", found["choice"]["in_words"])
+        self.assertIn(" that was tried ", found["choice"]["in_words"])
         for damping in ["0.4", "0.8", "1", "1.2", "1.3", "1.5"]:
             other, _ = self.chosen_row("tuned.json", "--device", "late.json", "--decomposition", damping)
             if other["certified"]:
@@ -470,7 +471,7 @@ class Json(CommandTest):
         self.write("late.json", json.dumps(self.LATE))
         self.write("pad.json", self.PAD)
         said = self.dashpot("explain", "pad.json", "--device", "late.json").stderr
-        listed = re.search(r"would bring that error down to (.*)", said).group(1)
+        listed = re.search(r"would bring the felt error down: to (.*)", said).group(1)
         errors = [float(error) for error in re.findall(r"(\S+) % (?:with|at)", listed)]
         self.assertEqual(errors, sorted(errors))
         error, noise = re.search(r'(\S+) % with a "window" of 4 \(where the motor\'s noise is (\S+) N', listed).groups()
@@ -501,7 +502,7 @@ class Json(CommandTest):
         self.write("pad.json", self.PAD)
         text = " ".join(self.dashpot("explain", "pad.json", "--device", "late.json").stdout.split())
         _, found = self.chosen_row("pad.json", "--device", "late.json")
-        notes = re.findall(r"note: '(\S+)' would need (?:.*?), and would err by (\S+) % in place of", text)
+        notes = re.findall(r"note: '(\S+)' would need (?:.*?), with a felt error of (\S+) % instead of", text)
         self.assertEqual(text.count("note: '"), len(notes))
         self.assertTrue(notes)
         for name, error in notes:
@@ -514,8 +515,8 @@ class Json(CommandTest):
         self.write("pad.json", self.PAD)
         chosen, found = self.chosen_row("pad.json", "--device", "late.json")
         text = self.dashpot("explain", "pad.json", "--device", "late.json").stdout
-        told, added = re.search(r"\nbrake is told +(\S+) N s/m, of which (\S+) are for passivity; it can make 2.8\n",
-                                text).groups()
+        told, added = re.search(r"\nbrake command +(\S+) N s/m, of which (\S+) are for passivity; the brake can make "
+                                r"2.8\n", text).groups()
         self.assertGreater(float(added), 0)
         self.assertEqual(f"{found['certificate']['added_damping']:.4g}", added)
         self.assertAlmostEqual(chosen["damping"] + float(added), float(told), delta=1e-3 * float(told))
@@ -526,7 +527,7 @@ class Json(CommandTest):
         self.write("pad.json", self.PAD)
         arguments = ["pad.json", "--device", "late.json", "--decomposition", "0.25"]
         chosen, _ = self.chosen_row(*arguments)
-        options, error = re.search(r"'(--state-input \S+)' has been tried: it errs by up to (\S+) %",
+        options, error = re.search(r"with '(--state-input \S+)' it deviates by up to (\S+) %",
                                    self.dashpot("explain", *arguments).stderr).groups()
         other, _ = self.chosen_row(*arguments, *options.split())
         self.assertEqual(f"{100 * other['largest_error']:.3g}", error)
@@ -549,7 +550,8 @@ class Json(CommandTest):
         self.write("late.json", json.dumps(device))
         self.write("pad.json", self.PAD)
         told = self.refused("compile", "pad.json", "--device", "late.json", code="not-certified").stderr
-        device |= json.loads("{" + re.search(r'would do: ("brake": \{.*?\}) of the device file', told).group(1) + "}")
+        device |= json.loads("{" + re.search(r'would be enough: ("brake": \{.*?\}) of the device file',
+                                             told).group(1) + "}")
         self.write("braked.json", json.dumps(device))
         self.assertTrue(self.explained("pad.json", "--device", "braked.json")["certificate"]["certified"])
 
@@ -565,7 +567,7 @@ class Json(CommandTest):
         self.write("rig.json", json.dumps(device))
         told = self.dashpot("compile", SOURCE / "networks/paper/bridge.json", "--device", "rig.json", "-o",
                             "out").stderr
-        self.assertIn('the same device would do with no "amplifier_lag" in its file', told)
+        self.assertIn('the device would be good enough if its motor\'s amplifier had no lag ("amplifier_lag")', told)
         del device["motor"]["amplifier_lag"]
         self.write("prompt.json", json.dumps(device))
         self.assertTrue(self.explained(SOURCE / "networks/paper/bridge.json", "--device",
@@ -589,7 +591,7 @@ class Json(CommandTest):
         self.skin_on_paddle(amplifier_lag="0.3 ms")
         asked = ["skin.json", "--device", "paddle.json", "--decomposition", "0.3"]
         done = self.refused("compile", *asked, code="not-certified")
-        options, damping = re.search(r"note: '(--.*)' would do: it is certified, with b = ([0-9.]+) N s/m",
+        options, damping = re.search(r"note: '(--.*)' would be enough: it is certified, with b = ([0-9.]+) N s/m",
                                      done.stderr).groups()
         found = self.explained("skin.json", "--device", "paddle.json", *options.split())
         (chosen,) = (c for c in found["candidates"] if c["name"] == found["chosen"])
@@ -718,7 +720,7 @@ class MotorLimits(CommandTest):
         self.assertEqual((limits["rule"], limits["covered"]), ("clamps", True))
         self.assertAlmostEqual(limits["needed_damping"], 0.5, delta=1e-9)
         self.assertLess(found["certificate"]["added_damping"], 1e-15)  # K T rounded up
-        self.assertIn("at the motor's limit: the motor clips; this is passive with the 0.5 N s/m", self.text)
+        self.assertIn("at the motor's limit: the motor clips; that is passive with the 0.5 N s/m", self.text)
 
     def test_a_slew_that_is_enough_costs_damping(self):
         """Fails if a slewing motor is taken for one that follows at once: K T/2 and K T √(σ/3ρ)."""
@@ -727,7 +729,8 @@ class MotorLimits(CommandTest):
         self.assertAlmostEqual(found["certificate"]["needed_damping"], needed, delta=1e-9)
         self.assertTrue(found["certificate"]["certified"])
         self.assertEqual((found["motor_limits"]["rule"], found["motor_limits"]["covered"]), ("clamps", True))
-        self.assertIn("slew: 500 N/s follow any motion within range and speed, the motor has 2000 N/s\n", self.text)
+        self.assertIn("slew: 500 N/s are enough for any motion within range and speed, the motor has 2000 N/s\n",
+                      self.text)
 
     def test_a_discontinuity_is_covered_by_spare_damping(self):
         """Fails if the largest force that may vanish is not that of the spare damping: F0 (1 + 3/2N + ...) = 6 rho
@@ -759,7 +762,8 @@ class MotorLimits(CommandTest):
         self.assertLess(float(slew.split()[0]), 510)
         self.assertTrue(self.explained(slew=slew)["certificate"]["certified"])
         self.explained(slew="2 kN/s", amplifier_lag="0.2 ms")
-        self.assertIn('the same device would do with no "slew" in its file', self.dashpot(*compiled).stderr)
+        self.assertIn('the device would be good enough if its motor\'s force could change at once ("slew")',
+                      self.dashpot(*compiled).stderr)
         self.assertTrue(self.explained(amplifier_lag="0.2 ms")["certificate"]["certified"])
         # A contact, whose force jumps; `explain` says who tells.
         self.write("touch.json",
@@ -767,11 +771,12 @@ class MotorLimits(CommandTest):
                                "network": {"spring": "200 N/m"}}))
         self.explained("touch.json", slew="2 kN/s")
         asked = ["touch.json", "--device", "slewing.json"]
-        self.assertIn('the same device would do with no "slew" in its file',
+        self.assertIn('the device would be good enough if its motor\'s force could change at once ("slew")',
                       self.dashpot("compile", *asked, "-o", "out").stderr)
-        self.assertIn("'dashpot compile' and 'dashpot check' say what would do", self.dashpot("explain", *asked).stderr)
+        self.assertIn("'dashpot compile' and 'dashpot check' say what would be enough",
+                      self.dashpot("explain", *asked).stderr)
         self.assertTrue(self.explained("touch.json")["certificate"]["certified"])
-        self.assertNotIn("would do", self.dashpot("explain", *asked).stderr)
+        self.assertNotIn("would be ", self.dashpot("explain", *asked).stderr)
 
     def test_slips_shed(self):
         """Fails if a network with slips clips where its motor gives less than they hold, or its header does not say
@@ -782,7 +787,7 @@ class MotorLimits(CommandTest):
                      "--certificate", "slip_certificate.json")
         header = (self.folder / "slip.hpp").read_text()
         self.assertIn("scalar kept_share() const noexcept", header)
-        self.assertIn("// at the motor's limit: the law sheds", header)
+        self.assertIn("// at the motor's limit: the law scales all its forces down", header)
         self.dashpot("verify", "slip_certificate.json", "slip.hpp")
 
     def test_emitted_code_sheds_as_simulate_does(self):

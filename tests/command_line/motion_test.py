@@ -146,9 +146,8 @@ class Motion(CommandTest):
         printed = self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv",
                                "--decomposition",
                                "velocity-free").stdout
-        self.assertIn(f"the brake is told {damping[0]:.4g} N s/m on average, {damping[0]:.4g} at most; of it "
-                      f"{damping[0]:.4g} are there "
-                      "for passivity alone\n", printed)
+        self.assertIn(f"the brake's command is {damping[0]:.4g} N s/m on average, {damping[0]:.4g} at most; "
+                      f"{damping[0]:.4g} of it are for passivity alone\n", printed)
         self.assertIn(f"the motor's limits: reached in {told['limited_samples']} samples of {len(rows)}; ", printed)
         _, strong = self.played(net, self.device(), table(sine(2000)), "--decomposition", "velocity-free")
         self.assertEqual(strong["limited_samples"], 0)
@@ -225,7 +224,7 @@ class Motion(CommandTest):
             contact = f'"contact": {{ "at": "{surface}" }}, ' if surface else ""
             net = self.write("curve.json", network(friction, "curve", curve + contact))
             said = re.sub(r"\s+", " ", self.dashpot("check", net, "--device", device).stderr)
-            found = re.search(r"worst of these runs is a sine of ([\d.]+) Hz and ±([\d.]+) m, with ([\d.]+) %", said)
+            found = re.search(r"worst of these motions is a sine of ([\d.]+) Hz and ±([\d.]+) m, with ([\d.]+) %", said)
             self.assertIsNotNone(found, said)
             frequency, amplitude, error = told[surface] = tuple(map(float, found.groups()))
             at = 0.001 if surface == "1 mm" else 0.0
@@ -297,7 +296,7 @@ class Motion(CommandTest):
         self.assertGreater(told["error"]["rms"], 0)
         self.assertEqual((told["error"]["rms_share"], told["error"]["peak_share"]), (None, None))
         said = self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv").stdout
-        self.assertRegex(said, r"error of what is felt: rms [\d.]+ N, peak [\d.]+ N\n")
+        self.assertRegex(said, r"felt error: rms [\d.]+ N, peak [\d.]+ N\n")
 
     def test_a_structure_that_gives(self):
         """Fails if a motion of the tool is played on a device whose shaft it does not tell, as its page says."""
@@ -340,7 +339,7 @@ class Motion(CommandTest):
         the same seed."""
         self.write("motion.csv", table(sine(250)))
         done = self.dashpot("run", FIG_5, "--device", PANTOGRAPH, "--motion", "motion.csv")
-        for words in ["10001 samples at 10000 Hz", "error of what is felt: rms ", "energy: ",
+        for words in ["10001 samples at 10000 Hz", "felt error: rms ", "energy: ",
                       "log: second_order_maxwell_run.csv"]:
             self.assertIn(words, done.stdout)
         first = (self.folder / "second_order_maxwell_run.csv").read_text()

@@ -90,7 +90,7 @@ class PortsTest(CommandTest):
                                {"name": "b", "network": {"spring": "300 N/m"}})
         for options in [[], ["--device", "rig.json"]]:
             self.dashpot("compile", network, *options, "--certificate", "law.json")
-            self.assertIn("recomputed in 100 digits",
+            self.assertIn("in 100 digits; banner and code are those of the network",
                           self.dashpot("verify", "law.json", "both.hpp", "--allow-uncertified").stdout)
         self.write("motion.csv", "time,position\n" +
                    "".join(f"{k / 5000},{min(k, 200) * 1e-5}\n" for k in range(30000)))
@@ -133,7 +133,7 @@ class PortsTest(CommandTest):
                                                                                     "name": f"{of}B1"}]}]}
         network = self.network({"name": "a", "network": solid("b_")}, {"name": "a_b", "network": solid("")})
         self.dashpot("compile", network, "--certificate", "law.json")
-        self.assertIn("recomputed in 100 digits",
+        self.assertIn("in 100 digits; banner and code are those of the network",
                       self.dashpot("verify", "law.json", "both.hpp", "--allow-uncertified").stdout)
 
     # If this fails, --set changes an element of another port than the one that is meant, or more than one.

@@ -138,7 +138,7 @@ class Manual(CommandTest):
         whole = self.shown()
         for command in COMMANDS:
             self.assertIn(f"dashpot-{command}(1)", whole.replace(" (1)", "(1)"))
-        self.assertIn("dashpot-check, with a hyphen, is another", self.shown("check"))
+        self.assertIn("dashpot-check, with a hyphen, is a separate one", self.shown("check"))
         for target in ["c99", "cpp"]:
             self.assertIn(target, self.shown("compile"))
         self.assertIn("there is no command 'complie'; 'compile' is the nearest",

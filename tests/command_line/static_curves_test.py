@@ -49,7 +49,7 @@ class StaticCurvesTest(CommandTest):
     # If this fails, explain does not tell what is compiled.
     def test_explain_tells_curve_and_map(self):
         text = self.dashpot("explain", SPHERE, "--legend").stdout
-        for words in ["power 1.5", "cubics up to 0.006 m", "behind the curve", "quasi-linear law"]:
+        for words in ["power 1.5", "cubics up to 0.006 m", "seen through it", "quasi-linear law"]:
             self.assertIn(words, text)
         told = json.loads(self.dashpot("explain", SPHERE, "--json", "--no-advice").stdout)["static"]
         self.assertEqual((told["stiffness"], told["reach"], told["begins"]), (400, 0.006, 0))
@@ -67,14 +67,14 @@ class StaticCurvesTest(CommandTest):
         hertz = {**flat, "name": "hertz", "static": {"power": 1.5, "force": "1 N", "at": "5 mm"}}
         gaps = []
         for network, words in ((flat, "one step of the encoder"),
-                               (hertz, "as far behind the curve as one step of the encoder")):
+                               (hertz, "as far along the stretched position as one step of the encoder")):
             self.write("network.json", json.dumps(network))
             told = " ".join(self.dashpot("explain", "network.json", "--device", TRAINER).stdout.split())
             gaps.append(float(re.search(rf"from a gap of (\S+) m on, {words}", told)[1]))
         # w is a multiple of u^5/4, and so steepest at 5 mm; of which the first cubic is a rough picture.
         self.assertAlmostEqual(math.log2(gaps[1] / (1.25 * 5e-3 ** 0.25 * gaps[0]) ** 0.8), 0, delta=1)
         self.assertIn("no bound is proved on the force that the law asks for", told)
-        self.assertIn("because it lies behind a static curve", told)
+        self.assertIn("because it has a static curve", told)
 
     # If this fails, a law behind a curve is not certified where it was, or verify does not know it again.
     def test_certified_laws_are_verified(self):
@@ -87,7 +87,7 @@ class StaticCurvesTest(CommandTest):
                 done = self.dashpot("verify", "law.json", f"{name}.hpp", status=None)
                 self.assertEqual(done.returncode == 0, certificate["certified"], done.stdout + done.stderr)
                 again = self.dashpot("verify", "law.json", f"{name}.hpp", "--allow-uncertified").stdout
-                self.assertIn("recomputed in 100 digits; banner and code are those of the network", again)
+                self.assertIn("recomputed from the network in 100 digits; banner and code are those of the network", again)
         self.dashpot("compile", SKIN, "--device", TRAINER, "--certificate", "law.json")
         self.assertTrue(json.loads((self.folder / "law.json").read_text())["passivity"]["certified"])
 
@@ -97,9 +97,11 @@ class StaticCurvesTest(CommandTest):
         self.write("cone.json", json.dumps(CONE))
         refused = self.dashpot("compile", "cone.json", "--device", PANTOGRAPH, status=INPUT_REFUSED).stderr
         self.assertIn("[not-certified]", refused)
-        self.assertIn('would do with no "delay_samples"', refused)  # a brake that would do ruins the feel
+        # A brake that is enough ruins the feel.
+        self.assertIn('good enough if its loop had no delay ("delay_samples")', refused)
         self.assertNotIn("of its stiffness", refused)
-        self.assertNotIn("Hz would do", refused)  # faster, the jitter is a sample, and nothing is known of the lag
+        # Faster, the jitter is a sample, and nothing is known of the lag.
+        self.assertNotIn("Hz would be enough", refused)
 
     # If this fails, the table promises of a candidate what it does not keep when it is chosen.
     def test_candidates_need_what_they_need_when_chosen(self):
@@ -175,7 +177,7 @@ class StaticCurvesTest(CommandTest):
         for network, name, wrong in [(SPHERE, "sphere_on_gel", "brake after a jump"), (SKIN, "skin_in_contact", "")]:
             with self.subTest(network=name):
                 done = self.dashpot("compile", network, "--target", "c99", "--with-test")
-                self.assertNotIn("plays no motion", done.stderr)
+                self.assertNotIn("checks no force along a motion", done.stderr)
                 self.assertIn("passed", self.run_in_c(name))
                 header = (self.folder / f"{name}.h").read_text()
                 numbers = re.search(r" map_b\[\d+\] = {(.*?)}", header, re.DOTALL).group(1)

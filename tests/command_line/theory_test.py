@@ -1,5 +1,6 @@
 """The theorem behind the storage functions of sampled loops, in Coq, and instances of it: `compile --proof`."""
 import json
+import os
 import re
 import subprocess
 import unittest
@@ -7,6 +8,7 @@ import unittest
 from dashpot_command import COMMAND_LINE_WRONG, FIG_5, PANTOGRAPH, SOURCE, CommandTest
 
 THEORY = SOURCE / "compiler/certify/proof"
+IS_LONG = os.environ.get("DASHPOT_LONG") == "1"
 # Without lag by both inputs of the states, with delay, lag and filter, behind a lag for holds of many lengths, and of
 # commands that act later than their samples.
 LAWS = [[FIG_5], [SOURCE / "networks/paper/bridge.json", "--state-input", "velocity"],
@@ -65,7 +67,7 @@ class TheoryTest(CommandTest):
                 # Of the six parts that the holds are taken in, those of which least is asked are one here.
                 self.assertEqual(text.count("gamma :="), 2 if "late.json" in law else 1)
                 self.assert_no_more_axioms(self.coqc(f"Law{number}.v", text), AXIOMS)
-                if number not in (0, len(LAWS) - 1): continue
+                if number not in ((0, len(LAWS) - 1) if IS_LONG else (0,)): continue
                 lowered = re.sub(r"beta := 0x([0-9a-f]+)", lambda beta: f"beta := {int(beta[1], 16) * 99999 // 100000}",
                                  text)
                 self.assertNotEqual(lowered, text)

@@ -218,7 +218,7 @@ class Verify(CommandTest):
         for i, law in enumerate(LAWS + SLIP_LAWS + OTHER_LAWS + TUNED_ON_DEVICES + EXTREME_LAWS):
             with self.subTest(law=law):
                 header, certificate = self.emitted_once(law, f"law_{i}")
-                self.assertIn("nearest", self.verify(header, certificate, f"sound_{i}").stdout)
+                self.assertIn("correctly rounded", self.verify(header, certificate, f"sound_{i}").stdout)
 
     def test_every_number_and_sentence_of_the_banner(self):
         """Fails if a banner passes that says anything else than what is so of the network, or says less."""
@@ -268,7 +268,7 @@ class Verify(CommandTest):
                 self.write("c.json", certificate)
                 self.write("h.hpp", header)
                 told = self.refused("verify", "c.json", "h.hpp", code="verified-uncertified").stderr
-                self.assertIn("--allow-uncertified accepts it all the same", told)
+                self.assertIn("--allow-uncertified accepts it nevertheless", told)
                 passivity = json.loads(certificate)["passivity"]
                 self.assertEqual((passivity["certified"], passivity["grade"]), (False, "not certified"))
                 if missing:
@@ -359,7 +359,7 @@ class Verify(CommandTest):
         """Fails if a header with CR LF at the ends of its lines, as git may write them, is refused, or hides a
         change."""
         header, certificate = self.emitted([FIG_5], "law")
-        self.assertIn("nearest", self.verify(header.replace("\n", "\r\n"), certificate, "dos").stdout)
+        self.assertIn("correctly rounded", self.verify(header.replace("\n", "\r\n"), certificate, "dos").stdout)
         once = "#pragma once\r\n"
         for i, (text, other) in enumerate([("force_ + ", "force_ - "), ("\r\n", "\n"), (once, once + "\r\n")]):
             changed = other.join(header.replace("\n", "\r\n").rsplit(text, 1))
@@ -369,12 +369,12 @@ class Verify(CommandTest):
         """Fails if a sound header of many points is refused, or one passed whose code or constants are another's."""
         header, certificate = self.emitted([TWENTY, "--batch"], "law")
         points = (self.folder / "law" / "twenty_branches_batch.hpp").read_text()
-        self.assertIn("nearest", self.verify(points, certificate, "points").stdout)
+        self.assertIn("correctly rounded", self.verify(points, certificate, "points").stdout)
         layers = SOURCE / "networks/tunable/layers_tunable.json"
         for name, law in [("coupled", "coupled.json"), ("layers_tunable", layers)]:
             _, of_slips = self.emitted([law, "--batch"], name)
             slipping = (self.folder / name / f"{name}_batch.hpp").read_text()
-            self.assertIn("nearest", self.verify(slipping, of_slips, f"{name}_points").stdout)
+            self.assertIn("correctly rounded", self.verify(slipping, of_slips, f"{name}_points").stdout)
         place = numbers_of(points[:points.index("storage_size")])[-1][1] - 1
         others = [points.replace(" + ", " - ", 1), changed_digit(points, place, random.Random(SEED)),
                   points.replace("states = ", "states = 1", 1)]
@@ -673,7 +673,8 @@ class Certified(CommandTest):
         self.write("kelvin.json", KELVIN)
         single = SOURCE / "runtime/devices/phantom_single_motor.json"
         done = self.refused("compile", "kelvin.json", "--device", single, code="not-certified")
-        for remedy in ["a brake of", "of its stiffness and damping would do", "--uncertified"]:
+        for remedy in ["a brake of", "times all stiffnesses and dampings of the network would be enough",
+                       "--uncertified"]:
             self.assertIn(remedy, done.stderr)
         self.assertEqual(self.files(), ["kelvin.json"])
         self.assertEqual(self.refused("check", "kelvin.json", "--device", single, code="not-certified").stderr,
@@ -690,7 +691,7 @@ class Certified(CommandTest):
         single = SOURCE / "runtime/devices/phantom_single_motor.json"
         told = self.dashpot("compile", "spring.json").stderr
         self.assertIn("[lacks-damping]", told)
-        self.assertIn("on an ideal device: 1.5 N s/m of damping are needed, at least 0 is there, 1.5 is missing", told)
+        self.assertIn("on an ideal device: 1.5 N s/m of damping are needed, 0 is guaranteed, 1.5 is missing", told)
         told = self.dashpot("compile", "kelvin.json", "--device", single, "--uncertified", "--certificate",
                             "c.json").stderr
         self.assertIn("[lacks-damping]", told)
@@ -699,7 +700,7 @@ class Certified(CommandTest):
         self.assertAlmostEqual(missing / (passivity["needed_damping"] - passivity["assured_damping"]), 1, delta=1e-5)
         self.write("touch.json", network('{ "spring": 500 }', "touch", '"contact": { "at": 0 },'))
         told = self.dashpot("compile", "touch.json", "--device", BOARD).stderr
-        self.assertRegex(told, r"leaves a free tool alone.*; \S+ N s/m of damping are needed, at least \S+ is there, "
+        self.assertRegex(told, r"leaves a free tool alone.*; \S+ N s/m of damping are needed, \S+ is guaranteed, "
                          r"\S+ is missing \[nothing-proved\]")
         self.assertEqual(self.dashpot("check", "touch.json", "--device", BOARD).stderr, told)
         self.assertEqual(self.dashpot("compile", "kelvin.json").stderr, "")
@@ -741,12 +742,13 @@ class Certified(CommandTest):
                     told = refusal(name, brake=brake, status=INPUT_REFUSED)
                     self.assertIn("[not-certified]", told)
                     needs, gives = re.search(
-                        r"needs (\S+) N s/m of damping on device '.*', which gives at least (\S+) ", told).groups()
+                        r"needs (\S+) N s/m of damping to be passive on device '.*'; only (\S+) is guaranteed",
+                        told).groups()
                     self.assertLessEqual(float(gives), float(needs))
                     for kind, words in {"brake": r"a brake of (\S+ N s/m) at the tool",
-                                        "share": r"with (\S+) of its stiffness", "rate": r"a loop at (\S+ Hz) would",
+                                        "share": r"(\S+) times all stiffnesses", "rate": r"a loop at (\S+ Hz) would",
                                         "jitter": r'"jitter": "(\S+ ms)" in',
-                                        "estimator": r'would do: "velocity": \{ (.*) \} in'}.items():
+                                        "estimator": r'would be enough: "velocity": \{ (.*) \} in'}.items():
                         if remedy := re.search(words, told):
                             found.add((name, kind))
                             refusal(name, **({"brake": brake} | {kind: float(remedy.group(1)) if kind == "share"
@@ -790,18 +792,20 @@ class Certified(CommandTest):
         tip = json.loads((SOURCE / "runtime/devices/phantom_shorted_motor.json").read_text())
         told = compiled(tip, wall)
         self.assertIn("[nothing-proved]", told)
-        self.assertIn('would do with no "amplifier_lag": "damping"', told)  # the delay does not stand in the way
+        # The delay does not stand in the way.
+        self.assertIn('would be enough if its motor\'s amplifier had no lag ("amplifier_lag"): "damping"', told)
         damping = re.search(r'"damping": "(\S+ N s/m)" in "mechanics"', told).group(1)
         del tip["motor"]["amplifier_lag"]
         tip["assumed"].remove("motor.amplifier_lag")
         told = compiled(tip, wall)
         self.assertIn(f'"damping": "{damping}" in "mechanics"', told)
-        self.assertNotIn("with no", told)
+        self.assertNotIn("enough if", told)
         tip["mechanics"]["damping"] = damping
         self.assertEqual(codes(compiled(tip, wall)), ["felt-error"])
         tip["motor"]["amplifier_lag"] = "0.2 ms"
         self.assertIn(
-            'note: the same device would do with no "amplifier_lag" in its file; what is felt would err by up to ',
+            'note: the device would be good enough if its motor\'s amplifier had no lag ("amplifier_lag"); the felt '
+            'error would be up to ',
             compiled(tip, wall))
 
     def test_a_loop_that_is_not_late_as_a_remedy(self):
@@ -818,8 +822,8 @@ class Certified(CommandTest):
                                 status=status).stderr
 
         refused = told(INPUT_REFUSED, delay_samples=3)
-        self.assertIn('the same device would do with no "delay_samples" in its file', refused)
-        errors = [float(error) for error in re.findall(r"would err by up to (\S+) %", refused)]
+        self.assertIn('the device would be good enough if its loop had no delay ("delay_samples")', refused)
+        errors = [float(error) for error in re.findall(r"felt error would be up to (\S+) %", refused)]
         self.assertGreater(len(errors), 1)
         self.assertEqual(errors, sorted(errors))
         self.assertEqual("would ruin the feel" in refused, errors[0] > 50)
@@ -827,7 +831,7 @@ class Certified(CommandTest):
 
         net = self.write("late.json", network('{ "parallel": [ { "spring": 500 }, { "damper": 4 } ] }', "late"))
         some = told(INPUT_REFUSED, delay_samples=3)  # there are three more, with 57 to 64 %
-        errors = [float(error) for error in re.findall(r"would err by up to (\S+) %", some)]
+        errors = [float(error) for error in re.findall(r"felt error would be up to (\S+) %", some)]
         self.assertEqual(errors, [error for error in errors if error <= 50])
         self.assertGreater(len(errors), 0)
         self.assertNotIn("would ruin the feel", some)
@@ -869,7 +873,7 @@ class Certified(CommandTest):
         done = self.refused("compile", "tuned.json", "--device", "punctual.json", code="not-certified").stderr
         brake, unit = re.search(r"a brake of ([0-9.e+]+) (N s/m) at the tool", done).groups()
         share, rate = [float(re.search(words, done).group(1))
-                       for words in (r"with ([0-9.e-]+) of its stiffness", r"a loop at ([0-9.e+]+) Hz")]
+                       for words in (r"([0-9.e-]+) times all stiffnesses", r"a loop at ([0-9.e+]+) Hz")]
         told = json.loads(json.dumps(punctual))
         told["brake"]["max_damping"] = f"{float(brake) * 1.001} {unit}"
         self.write("stronger.json", json.dumps(told))

@@ -117,7 +117,7 @@ class SpringInHand {
 
 // If this failed, an offset that goes home after a change would let go of a force that is still held, and a hand that
 // moves meanwhile would be given its work in every round.
-TEST(CertifiedTunables, GiveOutNoEnergyWhileOffsetsGoHome) {
+TEST(CertifiedTunables, GiveOutNoEnergyWhileOffsetsReturnToZero) {
   for (const int delay : {0, 2}) {
     SpringInHand spring("", delay);
     ASSERT_TRUE(spring.is_certified());

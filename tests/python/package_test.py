@@ -229,7 +229,7 @@ class Refusals(PackageTest):
         """Fails if an option that the target has nothing for passes without a message."""
         for option in [["--batch"], ["--constant-time"], ["--with-test"],
                        ["--certificate", str(self.folder / "c.json")]]:
-            self.assertIn(f"--target python knows no {option[0]}",
+            self.assertIn(f"--target python does not support {option[0]}",
                           self.refused(FIG_5, *option, code="target", status=2))
 
     def test_library_of_another_machine(self):

@@ -49,7 +49,7 @@ TEST(EnergyLemma, HoldsForPositionDrivenLaws) {
 }
 
 // Fails if stored_energy() is not ½ k0 u² + Σ F_i²/2k_i: a ramp slow enough loads the spring alone, a step loads all.
-TEST(EnergyLemma, SpeaksOfTheEnergyInTheSprings) {
+TEST(EnergyLemma, StoredEnergyIsThatOfTheSprings) {
   const std::shared_ptr<Model> model = law_of("exact_1khz", "second_order_maxwell").make();
   model->reset(0.25);
   EXPECT_EQ(model->stored_energy(), 0.5 * 5 * 0.25 * 0.25);

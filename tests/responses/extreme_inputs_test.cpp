@@ -21,7 +21,7 @@ void move(Model& model, const EmittedLaw& law, std::uint64_t seed, int segments)
 }
 
 // Fails if a NaN or infinite sample changes a single bit of the states, moves the motor or lets go of the brake.
-TEST(ExtremeInputs, ThatAreNoNumbersLeaveNoTrace) {
+TEST(ExtremeInputs, NonFiniteSamplesChangeNoState) {
   for (const EmittedLaw& law : all_laws()) {
     const std::shared_ptr<Model> model = law.make();
     model->reset(0);

@@ -323,7 +323,7 @@ class Refusals(WasmTest):
                          ["index.d.ts", "index.js", "package.json", "second_order_maxwell.wasm"])
         self.assertEqual(json.loads((package / "package.json").read_text())["type"], "module")
         done = self.dashpot("compile", FIG_5, "--target", "wasm", "--batch", "-o", self.folder / "out", status=2)
-        self.assertIn("--target wasm knows no --batch", done.stderr)
+        self.assertIn("--target wasm does not support --batch", done.stderr)
 
 
 if __name__ == "__main__":

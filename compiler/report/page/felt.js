@@ -49,7 +49,7 @@ function felt_of(law, motion, response, live, tunables) {
 const in_percent = (part, whole) => (whole > 0 ? ` (${rounded(100 * part / whole)} %)` : '');
 
 function felt_text(f, live) {
-  return `error of what is felt on ${live.device.name}, against ${live.form ? 'the network' : 'the law alone'}: ` +
+  return `felt error on ${live.device.name}, against ${live.form ? 'the network' : 'the law alone'}: ` +
     `rms ${rounded(f.rms)} ${live.force_unit}${in_percent(f.rms, f.rms_force)}, ` +
     `peak ${rounded(f.peak)} ${live.force_unit}${in_percent(f.peak, f.peak_force)}`;
 }

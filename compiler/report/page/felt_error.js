@@ -15,7 +15,7 @@ function set_up_felt_error({ frequencies, candidates }) {
     chart = new uPlot({
       width, height: Math.round(Math.min(360, 140 + width * 0.45)), padding: [12, 20, 0, 0], legend: { show: true, live: true },
       scales: { x: { time: false, distr: 3, range: [frequencies[0], frequencies[frequencies.length - 1]] }, y: { distr: 3 } },
-      axes: [axis('frequency [Hz]'), axis('error of what is felt [%]', { ...numbers_wide, space: 30 })],
+      axes: [axis('frequency [Hz]'), axis('felt error [%]', { ...numbers_wide, space: 30 })],
       series: [{ label: 'frequency', value: (u, v) => (v === null || v === undefined ? '' : `${rounded(v)} Hz`) },
                ...candidates.map(curve)],
       hooks: { ...quiet_legend, setSeries: [(u, i, options) => remember(i, options)] },

@@ -1,31 +1,32 @@
 // Presliding and Coulomb friction beside a viscous drag, all of which change while it runs
 //
-// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, except in
 //   samples in which a slip or a contact changes
-// brake: makes b = 12 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of the
-//   force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the tool in
-//   parallel add
-// behind friction: velocity-free, parameters change while it runs; b is that of their default values; b = 0 N·s/m
-//   stuck, 0 sliding
+// brake: makes b = 12 N·s/m of damping and, in the parts with slips, what the next lines give, and the motor the
+//   rest of the force; by the rule 'faithful': without a device 'faithful' is the paper's rule: dampers at the
+//   tool in parallel add
+// slip rule of friction: velocity-free, parameters change while it runs; b is that of their default values; b = 0
+//   N·s/m stuck, 0 sliding
 // states: what the law remembers follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any values within their
-//   ranges between changes, any damping of the brake that is not below its command: needs 2.5 N·s/m, counted
-//   sample by sample over a hold of up to 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the
-//   brake's command
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: not certified: to be passive for any motion, whichever slips slide or stick and whether the tool
+//   touches or not, any values within their ranges between changes, any brake that makes at least the commanded
+//   damping, the law needs 2.5 N·s/m by a proof sample by sample, for commands that are held for up to 0.001 s; 0
+//   N·s/m is guaranteed; the brake's command would have to be 2.5 N·s/m larger
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 1.4e-15 of the sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion, and for any values within their ranges, the law gives out no more work than
+//   stored_energy() decreases by; rounding changes the force by at most 1.4e-15 of the sum of its terms'
+//   magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
-//   set() by itself brings no energy in: if a stiffness rises while the tool presses, the force follows only as
-//   other springs set energy free; but the motor still holds the force of the last sample, so call set() right
+//   set() itself injects no energy: raising a stiffness under load raises the force only as far as energy that
+//   other springs release allows; but the motor still holds the force of the last sample, so call set() right
 //   after step() and take the command from output() of the same sample
-//   b [N·s/m] follows damper_3
+//   b [N·s/m] after set(): damper_3
 // cost of output(): 7 additions, 4 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 1 multiplication, 1 guard against subnormal numbers; 9 numbers kept between
 //   samples
@@ -33,8 +34,8 @@
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved
 //
 // Written by dashpot 0.1.0 from a network with digest
-// c86fcb8b7c393e3b623d21078d88e80af59e3eaf3833b10700b69af0c86379ba. It belongs to whoever had it
-// written. C99, and C++; compile it with -ffp-contract=off where results are compared bit for bit.
+// c86fcb8b7c393e3b623d21078d88e80af59e3eaf3833b10700b69af0c86379ba. It belongs to whoever emitted
+// it. C99, and C++; compile it with -ffp-contract=off where results are compared bit for bit.
 #ifndef DASHPOT_GENERATED_friction_tunable_H
 #define DASHPOT_GENERATED_friction_tunable_H
 
@@ -352,7 +353,7 @@ static inline unsigned friction_tunable_set_values(friction_tunable *self, const
       spring_2_least_answer;
   const double friction_moved_1 = one / self->spring_2_answer;
   self->spring_2_given_way = zero - friction_moved_1;
-  // b follows damper_3
+  // b: damper_3
   self->steady_brake = self->drag;
   // b∞ − b
   self->velocity_gain = self->drag - self->steady_brake;

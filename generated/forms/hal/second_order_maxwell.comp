@@ -21,25 +21,25 @@ notes """source: Gosline & Hayward 2009, Fig. 5
 scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 .br
 brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
-  turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 % of
-  the energy into heat at low frequency, and the brake follows it
+  dissipates 100 % of the energy at low frequency, so that the brake makes its 5 N s/m; in series, B2 dissipates
+  100 % of the energy at low frequency, so that the brake makes its 6 N s/m
 .br
 states: what the law remembers follows the measured position (position driven: on an ideal device position and
   velocity do equally well)
 .br
-late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-  'passivity'
+late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+  which 'passivity' covers
 .br
-passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, most at 8.53085 Hz, at least 11
-  N·s/m is there
+passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, the most at 8.53085 Hz; 11 N·s/m
+  is guaranteed
   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
   is added for passivity
 .br
-energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 2e-13 of the
-  sum of the force's terms
+energy: over any motion the law gives out no more work than stored_energy() decreases by; rounding changes the
+  force by at most 2e-13 of the sum of its terms' magnitudes
 .br
-device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-  period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+  period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 .br
 cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 .br
@@ -49,7 +49,7 @@ cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal num
 rounding: the force of a mode is off by at most 2e-13 of its peak
 .br
 words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-  mode is a spring behind a damper, whose force dies away""";
+  mode is a spring in series with a damper, whose force dies away""";
 pin in float position "of the tool [m]";
 pin in float velocity "of the tool [m/s], as the estimator 'exact' tells it";
 pin in bit enable = 0 "false: safe, at rest where the tool is; clears a fault";
@@ -77,30 +77,30 @@ license "of whoever had it written; dashpot 0.1.0 claims nothing of its output";
 // source: Gosline & Hayward 2009, Fig. 5
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
-//   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 % of
-//   the energy into heat at low frequency, and the brake follows it
+//   dissipates 100 % of the energy at low frequency, so that the brake makes its 5 N s/m; in series, B2 dissipates
+//   100 % of the energy at low frequency, so that the brake makes its 6 N s/m
 // states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, most at 8.53085 Hz, at least 11
-//   N·s/m is there
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, the most at 8.53085 Hz; 11 N·s/m
+//   is guaranteed
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 2e-13 of the
-//   sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion the law gives out no more work than stored_energy() decreases by; rounding changes the
+//   force by at most 2e-13 of the sum of its terms' magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 2e-13 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// af2735eee93eb33a8f9a4a4f82c0acd10271a91cc25bb6eaf3dfce559e6694af. It belongs to whoever had it
-// written. C99, and C++; compile it with -ffp-contract=off where results are compared bit for bit.
+// af2735eee93eb33a8f9a4a4f82c0acd10271a91cc25bb6eaf3dfce559e6694af. It belongs to whoever emitted
+// it. C99, and C++; compile it with -ffp-contract=off where results are compared bit for bit.
 #ifndef DASHPOT_GENERATED_law_second_order_maxwell_H
 #define DASHPOT_GENERATED_law_second_order_maxwell_H
 

@@ -3,26 +3,26 @@
 // source: Gosline & Hayward 2009, Fig. 4b and (16)-(19); values of Fig. 6
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 5 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B
-//   turns 100 % of the energy into heat at low frequency, and the brake follows it
+//   dissipates 100 % of the energy at low frequency, so that the brake makes its 5 N s/m
 // states: what the law remembers follows the estimated velocity (velocity driven as asked)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: certified for any motion, samples at 1000 Hz: needs 4.95449 N·s/m, most at 18.8949 Hz, at least 5
-//   N·s/m is there
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: certified for any motion, samples at 1000 Hz: needs 4.95449 N·s/m, the most at 18.8949 Hz; 5 N·s/m is
+//   guaranteed
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 1 addition, 1 multiplication, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 1 guard against subnormal numbers; 2 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 3.4e-14 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 1da822b838c0f77f8432457e47bc3cdeb6bb0dd5f782f58b2b5899e36f35eb79. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 1da822b838c0f77f8432457e47bc3cdeb6bb0dd5f782f58b2b5899e36f35eb79. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

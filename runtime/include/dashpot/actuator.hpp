@@ -3,8 +3,9 @@
 //     torque = r F,   B_joint = r² B,   i = √(b/κ)                                     (theory.md, section 7)
 // within max_damping and max_torque. What a limit took away is reported, so that the safety monitor can count
 // saturation, and so is how far the coil, with its slew and lag, stays behind. That is predicted (brake_coil.hpp) from
-// the demands made here; the energy observer may credit the prediction and the motor may make up for it. The residual
-// damping at zero current comes on top of all figures here and is never subtracted: it belongs to the device's own.
+// the demands made here. The energy observer may count the predicted damping as dissipated, and the motor may make up
+// for what the coil lacks. The residual damping at zero current comes on top of all figures here and is never
+// subtracted: it belongs to the device's own.
 // No heap, no <cmath>; `Scalar` is float or double. Commands must be finite: the safety monitor refuses others before.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The curve of a part that gives way, p against δ: a polyline that never falls. It is read by elongation where parts
+// The curve of a part that gives way, p against δ: a non-decreasing polyline. It is read by elongation where parts
 // stand in parallel and forces add, by force where they stand in series and elongations do.
 //
 // Besides its kinks a curve stores its force at δ = 0, near which the next samples lie: kinks may be so far away that
@@ -48,7 +48,7 @@ struct by_force {
   static constexpr Corner corner(Scalar at, Scalar value, bool is_kink) noexcept { return {value, at, is_kink}; }
 };
 
-// Reads a curve at places that never fall.
+// Reads a curve at non-decreasing abscissae.
 template <class Scalar, class Way>
 class slip_curve_reader {
  public:

@@ -99,7 +99,7 @@ TEST(NonInjecting, PolarArmsNeedTwoBrakesOnly) {
 }
 
 // A damper along one direction gets nothing from brakes along others: any d > 0 would resist where nothing is wanted.
-TEST(NonInjecting, OneDirectionGetsNothingUnlessItIsABrakes) {
+TEST(NonInjecting, SingleDirectionNeedsABrakeAlongIt) {
   const Target alike{1, 0, 1}, slanted = outer(Pair<double>{0.6, 0.8});
   for (const double d : non_injecting(with_difference, slanted, alike)) EXPECT_NEAR(d, 0, 1e-12);
   EXPECT_NEAR(non_injecting(with_difference, outer(Pair<double>{1, -1}), alike)[2], 1, 1e-12);
@@ -108,7 +108,7 @@ TEST(NonInjecting, OneDirectionGetsNothingUnlessItIsABrakes) {
 }
 
 // Nothing to couple, nothing wanted at all: no division by zero on the way.
-TEST(NonInjecting, NothingWantedIsNothingGiven) {
+TEST(NonInjecting, UncoupledOrZeroFieldsNeedNoDivision) {
   const Target alike{1, 0, 1};
   EXPECT_EQ(non_injecting(joint_brakes, {2, 0, 3}, alike), (std::vector<double>{2, 3}));
   EXPECT_EQ(non_injecting(joint_brakes, {0, 0, 3}, alike), (std::vector<double>{0, 3}));

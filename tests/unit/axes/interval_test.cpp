@@ -86,7 +86,7 @@ TEST(Interval, WavesReachTheirExtremes) {
   EXPECT_EQ(cos(Interval(-1e9, 0)).width(), 2);
 }
 
-TEST(Interval, DivisionByWhatMayBeZeroIsAnything) {
+TEST(Interval, DivisionByIntervalWithZeroIsUnbounded) {
   const Interval any = Interval(1) / Interval(-1, 1);
   EXPECT_TRUE(std::isinf(any.low) && std::isinf(any.high));
   EXPECT_EQ((Interval(0) * any).width(), 0);

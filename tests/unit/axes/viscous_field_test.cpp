@@ -243,7 +243,7 @@ TEST(Gate, KeepsEveryMotionPassive) {
 
 // A field that stays passes whole where max(|r|, |σ|) ≤ √(p s), and 2 % beyond that it gives energy: nothing is given
 // away.
-TEST(Gate, PassesWhateverIsPassiveWhereNothingVaries) {
+TEST(Gate, ConstantPassiveFieldsPassUnlimited) {
   for (const auto& [r, sigma] : {Pair<double>{0, 2}, Pair<double>{2, 0}, Pair<double>{-2, 2}, Pair<double>{1.3, -2}}) {
     const JointField<double> field{4, r, 1, sigma};
     const double omega = gate_ratio({{field.p, field.s}});

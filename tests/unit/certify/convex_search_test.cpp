@@ -46,7 +46,7 @@ class Convex {
 constexpr double low = 0, high = 2, precision = 1e-14;
 
 // Fails if the chords that save most of the questions lead to another answer than bisection.
-TEST(LevelBoundary, IsThatOfBisectionAndAsksForLess) {
+TEST(LevelBoundary, MatchesBisectionWithFewerEvaluations) {
   int compared = 0, asked = 0, by_bisection = 0;
   for (unsigned seed = 1; seed <= 400; ++seed) {
     Convex f(seed);
@@ -76,7 +76,7 @@ TEST(LevelBoundary, MayFailAtAnInfiniteValue) {
 }
 
 // Fails if the search gives up a level that is reached, or goes on where the chords tell that it is not.
-TEST(GoldenSection, GivesUpALevelThatIsNotReachedAndNoOther) {
+TEST(GoldenSection, GivesUpOnlyUnreachedLevels) {
   constexpr double fine = 1e-10;
   int given_up = 0, asked = 0, to_the_end = 0;
   for (unsigned seed = 1; seed <= 400; ++seed) {

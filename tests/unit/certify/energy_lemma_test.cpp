@@ -29,7 +29,7 @@ TEST(EnergyLemma, HoldsForRoundedConstants) {
 }
 
 // If this failed, a step stiffness that is too small by a thousandth would pass for a tissue.
-TEST(EnergyLemma, SeesWhatIsMissing) {
+TEST(EnergyLemma, RefusesTooSmallAStepStiffness) {
   MotorConstants motor = spring_motor(0);
   add_maxwell(motor, 1000, 0.001, 0.001, true);
   motor.step_stiffness *= 0.49;  // the least is c/2

@@ -76,7 +76,7 @@ TEST(HoldBound, LeavesNoSampleBeforeTheCommandBeforeIt) {
 }
 
 // If this failed, more would be asked of a late network than one of the two statements asks.
-TEST(HoldBound, GivesWayWhereTheOtherAsksLess) {
+TEST(HoldBound, TheSmallerBoundIsStated) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);

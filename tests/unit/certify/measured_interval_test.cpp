@@ -54,7 +54,7 @@ class MeasuringTool {
 };
 
 // Forth in a short hold and back in a long one, w ∝ √T: of a damper alone what is stated is necessary, to the digit.
-TEST(MeasuredInterval, NoLessWouldDoForADamper) {
+TEST(MeasuredInterval, StatedDampingIsNecessaryForADamper) {
   for (const double jitter : {0.05, 0.2, 0.5}) {
     const SampledLoop loop = measuring_loop(jitter);
     const MotorConstants motor = damper_motor(5);
@@ -77,7 +77,7 @@ TEST(MeasuredInterval, NoLessWouldDoForADamper) {
 
 // If this failed, what is stated of a spring and a damper would not be enough for a hand and a clock that look for the
 // worst: any move in any hold, among them the one that takes most out of the force that is held.
-TEST(MeasuredInterval, WhatIsStatedIsEnough) {
+TEST(MeasuredInterval, StatedDampingIsEnough) {
   MotorConstants motor = spring_motor(500);
   motor.velocity_gain = 5;
   for (const double jitter : {0.05, 0.2, 0.5, 0.9})

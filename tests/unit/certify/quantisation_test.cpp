@@ -98,7 +98,7 @@ TEST(Quantisation, OfASlipBehindASpringIsTheSpring) {
 
 // If this failed, a damper in front of a slip would not pass on twice what it answers within a sample; or the brake's
 // part of it would count.
-TEST(Quantisation, OfASlipBehindADamperIsWhatTheBrakeLeaves) {
+TEST(Quantisation, OfASlipInSeriesWithADamperIsTheMotorsPart) {
   const Tree component = series({damper(3), slip(1)});
   EXPECT_NEAR(to_double(held_slips(component, {Real(0)}, exact_settings).gain), 2 * 3 / T, 1e-9);
   EXPECT_NEAR(to_double(held_slips(component, {Real(3)}, exact_settings).gain), 0, 1e-9);

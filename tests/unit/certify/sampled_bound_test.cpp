@@ -136,7 +136,7 @@ TEST(SampledBound, MeetsAScanWithALag) {
 
 // If this failed, a supremum that is all but level, near the rounding of its terms, would be looked for without end;
 // or, left early, the bound would fall below it.
-TEST(SampledBound, LeavesALevelSupremumInTimeAndAbove) {
+TEST(SampledBound, EndsAboveANearlyLevelSupremum) {
   for (const double rate : {22.0, 2200.0, 2.2e5}) {
     SCOPED_TRACE(rate);
     const SampledLoop loop = plain_loop(1e-9);

@@ -175,7 +175,7 @@ TEST(StorageFunction, OfLateCommandsServesAllHolds) {
 
 // At the supremum itself there is one P alone, here of a damper behind the difference over two samples: what is found
 // just above it would lie elsewhere.
-TEST(StorageFunction, NearTheOnlyOne) {
+TEST(StorageFunction, MatchesTheUniqueSolutionAtTheSupremum) {
   const std::optional<StorageProof> proof = storage_proof(damper_motor(5), differencing_loop(punctual_period, 2));
   ASSERT_TRUE(proof);
   EXPECT_NEAR(proof->storage[0][0], 1562.5, 0.1);

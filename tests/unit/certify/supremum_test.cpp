@@ -365,7 +365,7 @@ TEST(Supremum, OfAnEstimateThatFollowsEverySample) {
 }
 
 // If this failed, nothing would be said of an estimate whose recursion, rounded, no longer dies away.
-TEST(Supremum, OfNoEstimateThatRings) {
+TEST(Supremum, RefusesAnEstimateThatRings) {
   SampledLoop loop = plain_loop(0.001);
   loop.has_device = true;
   loop.joint_encoder_step = 1e-9;

@@ -74,17 +74,17 @@ NetworkRecipe recipe(std::size_t most_slips, Topology topology = Topology::tree)
 
 // If this failed, the law without slips would open or close the gap at the wrong time, or put the surface in the wrong
 // place.
-TEST(ContactAgreement, LinearIsThatOfTheElements) {
+TEST(ContactAgreement, LinearLawMatchesElementSimulation) {
   EXPECT_EQ(first_failure(1, repetitions(120, 20000), recipe(0), disagreement), "");
 }
 
 // The same behind slips, where the whole curve must be known to find its zero.
-TEST(ContactAgreement, SlipsAreThatOfTheElements) {
+TEST(ContactAgreement, SlipsMatchElementSimulation) {
   EXPECT_EQ(first_failure(1, repetitions(120, 20000), recipe(6), disagreement), "");
 }
 
 // The same where the slips meet outside a tree: the contact is one of them.
-TEST(ContactAgreement, SlipsOutsideTreesAreThatOfTheElements) {
+TEST(ContactAgreement, NonTreeSlipsMatchElementSimulation) {
   EXPECT_EQ(first_failure(1, repetitions(120, 20000), recipe(5, Topology::graph), disagreement), "");
 }
 

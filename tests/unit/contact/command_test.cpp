@@ -115,7 +115,7 @@ TEST(ContactCommand, PullsNoMoreThanTheStatedHysteresis) {
 
 // If this failed, a command that lets go would leave the motor pushing, or one that holds on would take the state with
 // it.
-TEST(ContactCommand, LetsGoOfBothAndNotOfTheState) {
+TEST(ContactCommand, HysteresisActsOnTheCommandAlone) {
   const compiler::UpdateLaw without = law_for(wall, 0), with = law_for(wall, encoder_step);
   compiler::Evaluation<double> ideal(without), kept(with);
   for (compiler::Evaluation<double>* law : {&ideal, &kept}) law->step(0.002, 2);
@@ -156,7 +156,7 @@ TEST(ContactCommand, RefusesStatesDrivenByTheEstimate) {
 }
 
 // If this failed, what explain and the banner say would not be what the command does.
-TEST(ContactCommand, SaysHowLongItHoldsOn) {
+TEST(ContactCommand, TextStatesTheHysteresis) {
   compiler::Compilation c = compiled(behind_contact(wall, 0.002), compiler::Scheme::exact);
   EXPECT_EQ(contact_text(c.decomposition, c.network), "at 0.002 m; brake and motor 0 while the tool is free");
   c.decomposition.encoder_step = encoder_step;
@@ -165,7 +165,7 @@ TEST(ContactCommand, SaysHowLongItHoldsOn) {
 }
 
 // If this failed, a NaN or infinite sample would change the surface, or find the brake changed.
-TEST(ContactCommand, SurvivesWhatIsNoNumber) {
+TEST(ContactCommand, IgnoresNonFiniteSamples) {
   for (const char* structure : {wall, tissue}) {
     const compiler::UpdateLaw law = law_for(structure, encoder_step);
     compiler::Evaluation<double> run(law), untouched(law);
@@ -184,7 +184,7 @@ TEST(ContactCommand, SurvivesWhatIsNoNumber) {
 }
 
 // If this failed, a wall of nothing, as a slider leaves it, would be refused as if its numbers were too large.
-TEST(ContactCommand, TakesAWallOfNothing) {
+TEST(ContactCommand, AcceptsZeroStiffness) {
   const compiler::UpdateLaw law = law_for(R"({"spring": 0})", 0);
   compiler::Evaluation<double> run(law);
   for (double position : {-1e-3, 1e-3, -1e-3}) {

@@ -58,7 +58,7 @@ TEST(FaithfulRule, TakesCertifiedOptionsOnly) {
 }
 
 // Fails if a law that cannot be certified, and so is refused, sets an error that no certified one reaches.
-TEST(FaithfulRule, AnUncertifiedErrorShutsOutNothing) {
+TEST(FaithfulRule, UncertifiedErrorExcludesNoCertifiedOption) {
   const FaithfulChoice choice = choose_faithful(
       {uncertified(5, 0.01), certified(1, 0.300, 0), certified(2, 0.314, 0), certified(3, 0.316, 0)}, tolerance);
   EXPECT_EQ(choice.chosen, 2u);

@@ -42,12 +42,12 @@ VariableId state_of_several(const UpdateLaw& law) {
 }
 
 // Fails if a law as it is compiled does not pass.
-TEST(CheckLaw, PassesWhatIsCompiled) {
+TEST(CheckLaw, AcceptsCompiledLaws) {
   EXPECT_EQ(complaint_after([](UpdateLaw&) {}), "");
 }
 
 // Fails if a fault of any kind passes, or the pass that made it is not named.
-TEST(CheckLaw, RefusesWhatIsNoLaw) {
+TEST(CheckLaw, RefusesFaultyLawsAndNamesThePass) {
   EXPECT_EQ(complaint_after([](UpdateLaw& law) { law.output.pop_back(); }), "a pass: the force is never assigned");
   EXPECT_EQ(complaint_after([](UpdateLaw& law) { law.energy.clear(); }), "a pass: the stored energy is never assigned");
   EXPECT_EQ(

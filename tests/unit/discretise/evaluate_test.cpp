@@ -91,7 +91,7 @@ TEST(Evaluate, OrderOfSums) {
 }
 
 // Fails if a scalar is not the same for every place of a vector.
-TEST(Evaluate, ScalarsAreSharedByAllPlaces) {
+TEST(Evaluate, ScalarsBroadcastToVectors) {
   HandWritten h;
   const VariableId terms = h.variable("terms", Role::local, 3);
   h.law.output.push_back(
@@ -128,7 +128,7 @@ TEST(Evaluate, OutputThenUpdate) {
 }
 
 // Fails if a NaN or infinite input or force reaches a state, or leaves the motor anything but 0.
-TEST(Evaluate, WhatIsNotFiniteStaysOutside) {
+TEST(Evaluate, NonFiniteInputsReachNoState) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const double max = std::numeric_limits<double>::max();
   const HandWritten h = integrator();

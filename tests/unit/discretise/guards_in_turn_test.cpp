@@ -27,7 +27,7 @@ double bits_between(double fastest, std::size_t places) { return fastest * 1e-3 
 
 // If this failed, a force would be subnormal before its guard came, or its square far below; or more would be guarded
 // than has to be.
-TEST(GuardsInTurn, ComeAsSeldomAsTheFastestForceAllows) {
+TEST(GuardsInTurn, GuardIntervalPreventsSubnormals) {
   for (const double fastest : {2.0, 1e3, 15e3, 20e3, 30e3, 60e3}) {
     const Compiled compiled = branches(fastest);
     ASSERT_EQ(compiled.law().guards.size(), 1u) << fastest;
@@ -42,7 +42,7 @@ TEST(GuardsInTurn, ComeAsSeldomAsTheFastestForceAllows) {
 
 // If this failed, some force would go without its guard: where half of the forces a sample are too few, in float, whose
 // threshold's square is barely normal, or on demand.
-TEST(GuardsInTurn, AreForSlowForcesInDoubleAlone) {
+TEST(GuardsInTurn, ApplyToSlowForcesInDoubleOnly) {
   Choices in_float, on_demand;
   in_float.scalar = ScalarType::float32;
   on_demand.guards_each_sample = true;
@@ -53,7 +53,7 @@ TEST(GuardsInTurn, AreForSlowForcesInDoubleAlone) {
 }
 
 // If this failed, some place would never be guarded, or too late.
-TEST(GuardsInTurn, LeaveNoForceBelowItsSquaresRange) {
+TEST(GuardsInTurn, GuardEveryForceInTime) {
   for (const double fastest : {2.0, 1e3, 30e3}) {
     const Compiled compiled = branches(fastest);
     Evaluation<double> law(compiled.law());

@@ -81,7 +81,7 @@ TEST(Names, BeginningsOfTheLawsOwnNames) {
 }
 
 // Fails if a mode's name and a numbered one coincide.
-TEST(Names, NumbersBehindNames) {
+TEST(Names, ModeAndNumberedNamesDiffer) {
   EXPECT_EQ(complaint("numbers", {{"a", "b"}, {"a_b", "x2"}, {"A_", "b_2"}, {"c", "d_2"}, {"c_d", "e2"}}), "");
 }
 

@@ -81,7 +81,7 @@ TEST(EmitCpp, StatesFormAndErrorBoundOfFloat) {
 // networks; or if it takes the damping that the brake makes beside slips for all that it makes.
 TEST(EmitCpp, SaysOfSlipsAndContactsWhereExactnessEnds) {
   const std::string exact = "a motion that is straight between two samples is answered exactly";
-  const std::string but = exact + ", but for";
+  const std::string but = exact + ", except";
   const auto banner = [](const std::string& more, const std::string& beside) {
     return header_of(R"({ "dashpot": 1, "name": "pad", )" + more + R"("network": { "parallel": [ { "spring": 50 }, )" +
                          beside + R"({ "damper": 5 } ] } })",
@@ -93,11 +93,11 @@ TEST(EmitCpp, SaysOfSlipsAndContactsWhereExactnessEnds) {
   EXPECT_TRUE(contains(contact, but));
   EXPECT_TRUE(contains(slip, but));
   EXPECT_TRUE(contains(linear, "brake: makes b = 5 N·s/m of damping, and the motor"));
-  EXPECT_TRUE(contains(slip, "brake: makes b = 5 N·s/m of damping, behind slips also"));
+  EXPECT_TRUE(contains(slip, "brake: makes b = 5 N·s/m of damping and, in the parts with slips,"));
 }
 
 // Fails if a NaN or infinite input can pass unseen, or if what the force shows of itself is looked at again.
-TEST(EmitCpp, LooksAtWhatTheForceDoesNotShow) {
+TEST(EmitCpp, TestsInputsThatTheForceDoesNotShow) {
   const auto network = [](const char* structure) {
     return fmt::format(R"({{ "dashpot": 1, "name": "pad", "network": {} }})", structure);
   };

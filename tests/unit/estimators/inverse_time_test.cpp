@@ -28,7 +28,7 @@ TEST(InverseTime, IsCountsOverTheTimeBetweenEdges) {
 }
 
 // Between edges the estimate stands until it would have crossed the next edge, and decays from there.
-TEST(InverseTime, IsBoundedByTheEdgeThatDoesNotCome) {
+TEST(InverseTime, DecaysWhenTheNextEdgeIsOverdue) {
   inverse_time<double> estimator = started_at(10 * ms);
   const double fast = estimator.update(step, 12 * ms, 12 * ms);
   EXPECT_DOUBLE_EQ(fast, step / 2e-3);

@@ -127,7 +127,7 @@ TEST(LowPass, IsMaximallyFlat) {
 
 // A declared gain below the true one would let the theorem be applied where it does not hold. The search is good to
 // 1e-12, the coefficients of these filters to 1e-11.
-TEST(MaxGain, DeclaredIsTheOneFound) {
+TEST(MaxGain, DeclaredGainMatchesSearch) {
   const auto expect_declared = [](const auto& estimator) {
     EXPECT_NEAR(max_gain(estimator.transfer(), sample_period), estimator.max_gain(), 1e-11 * estimator.max_gain());
   };

@@ -90,7 +90,7 @@ TEST(Expression, IsCalculatedAsArithmeticHasIt) {
 }
 
 // If this fails, plain quantities and names are taken for expressions, with other messages and other rounding.
-TEST(Expression, IsNotWhatIsPlain) {
+TEST(Expression, PlainQuantitiesAndNamesAreNoExpressions) {
   for (const char* text : {"6 N / m", "5 N s/m", "5 N*s/m", "1e-3 m", "10 1/s", "10 s^-1", "G", "inf", "-inf", "5 Nms",
                            "5 N/m s", "5 N s/m s", "1,5 N/m", "5 5 N/m", ""})
     EXPECT_FALSE(is_expression({ValueDecl::Form::text, text, {}}, scope())) << text;
@@ -123,7 +123,7 @@ TEST(Expression, StandsWhereverAValueMay) {
 }
 
 // If this fails, hostile text in a value crashes or hangs the front end instead of being refused.
-TEST(Expression, RefusesWhatIsMadeToHurt) {
+TEST(Expression, RefusesHostileText) {
   for (const std::string& text :
        {std::string(100'000, '('), "2" + std::string(100'000, '^'), "2 * " + std::string(100'000, '-') + "3",
         std::string("9^9^9^9^9 * 1 N"), std::string("2 ^ (1/0)"), std::string("a ^ 10^30"),

@@ -90,7 +90,7 @@ std::string difference(const compiler::Network& network, std::uint64_t seed) {
 
 // If this failed, slips outside trees would be joined by another linear part than the author's: with every terminal
 // held or moving along it is a one-port.
-TEST(Multiport, IsTheOnePortThatItsTerminalsMakeOfIt) {
+TEST(Multiport, MatchesOnePortsWithTerminalsHeldOrMoving) {
   NetworkRecipe recipe;
   recipe.topology = Topology::graph;
   recipe.most_nodes = 12;

@@ -67,7 +67,7 @@ TEST(Farewell, IsConfirmedAfterOnePeriodToo) {
 }
 
 // Broken, a device that has stopped talking would be called safe because the stream took the command.
-TEST(Farewell, WithoutAConfirmationIsToldSo) {
+TEST(Farewell, MissingConfirmationIsReported) {
   telling_device device(scripted_description());
   device.silent_from = 51;
   const servo_summary summary = run(device).summary;
@@ -107,7 +107,7 @@ TEST(Farewell, OfADeviceThatCannotConfirmSaysThat) {
 
 // Broken, a device file that allows 100,000 missed deadlines would make a loop on a dead board that goes on for minutes
 // after Ctrl-C, and past its time.
-TEST(Farewell, FromADeadDeviceEndsWhateverMayBeMissed) {
+TEST(Farewell, FromADeadDeviceEndsDespiteManyAllowedMisses) {
   for (const unsigned allowed : {100'000u, 100'000'000u}) {
     device_description patient = scripted_description();
     patient.loop.missed_deadlines_allowed = allowed;

@@ -258,7 +258,7 @@ TEST(Motion, ReleaseAtASampleIsNotLate) {
 
 // If this failed, a tool that is led along a prescribed motion would be elsewhere, or the work of leading it would be
 // miscounted.
-TEST(Motion, PrescribedMotionIsFollowedAndPaidFor) {
+TEST(Motion, PrescribedMotionAccountsForItsWork) {
   scenario scene;
   scene.intended = sine(0.02, 1);
   scene.prescribed = true;

@@ -81,7 +81,7 @@ TEST(CoupledRegimes, FollowTheSlipsBehindAContact) {
 }
 
 // If this failed, a component with more slips than regimes are listed for would lose what holds in all of them.
-TEST(CoupledRegimes, ManySlipsLeaveWhatHoldsInAllRegimes) {
+TEST(CoupledRegimes, ManySlipsStillBrakeWithTheCommonDamping) {
   std::string branches = R"({"damper": 2})";
   for (int i = 1; i <= 7; ++i)
     branches += fmt::format(", {{\"series\": [{{\"spring\": {}}}, {{\"slip\": {}}}]}}", 100 * i, 0.1 * i);

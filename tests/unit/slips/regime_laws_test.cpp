@@ -39,7 +39,7 @@ const char* const kelvin_and_slip = R"({"series": [{"parallel": [{"spring": 500}
 }  // namespace
 
 // Fails if what hangs behind a slip is braked while it slides, or the motor then pushes along the motion.
-TEST(RegimeLaws, KelvinBehindASlipIsLetGo) {
+TEST(RegimeLaws, KelvinInSeriesWithASlidingSlipIsNotBraked) {
   const auto commands =
       commands_along(decided(written_network(kelvin_and_slip), "most-dissipative").law, slide(0.2, 100));
   // Stuck, the Kelvin element would carry 5·0.2 + 500 u > 0.4 at once, so that every sample slides.
@@ -76,11 +76,11 @@ TEST(RegimeLaws, TheDefaultTakesTheLargestBrakeThatServes) {
         if (merit.error() <= slips.limit && on == nullptr) {
           EXPECT_GE(chosen->mean_damping, merit.mean_damping * (1 - 1e-9)) << name_of(merit.law);
         }
-      EXPECT_NE(split.reason.find("the largest brake"), std::string::npos) << split.reason;
+      EXPECT_NE(split.reason.find("the largest mean damping of the brake"), std::string::npos) << split.reason;
     }
   const auto offers =
       decided(FigureTen{}.network(), "velocity-free", &device).decomposition.slips.components.front().offers;
-  EXPECT_NE(offers[2].refusal.find("'butterworth' never forgets"), std::string::npos) << offers[2].refusal;
+  EXPECT_NE(offers[2].refusal.find("'butterworth' has an infinite impulse response"), std::string::npos) << offers[2].refusal;
 }
 
 // (21) with the sign of the sliding force: B1 ∥ (K — slip) ∥ [B2 while sliding].

@@ -181,7 +181,7 @@ void expect_same_law_of_w(std::uint64_t seed, const TunableLaw& curved, const Tu
   }
 }
 
-TEST(BehindMap, TakesParametersThatChange) {
+TEST(BehindMap, FollowsChangingParameters) {
   int tried = 0;
   for (const Kind kind : {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::touched, Kind::slips})
     for (std::uint64_t seed = 1; seed <= repetitions(4, 200); ++seed) {
@@ -202,7 +202,7 @@ TEST(BehindMap, TakesParametersThatChange) {
   EXPECT_GT(tried, 10);
 }
 
-TEST(BehindMap, RefusesNoPlaceAndForgetsNoSample) {
+TEST(BehindMap, AcceptsEveryPositionAndKeepsEverySample) {
   const Compilation c = compiled(behind(hertz));
   Evaluation<double> law(c.law);
   law.reset(1e-3);

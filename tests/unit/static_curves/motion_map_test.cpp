@@ -94,7 +94,7 @@ TEST(MotionMap, ReachesAsFarAsTheFileIsValid) {
 }
 
 // A power above 5 makes a first cubic whose slope dips below 0.
-TEST(MotionMap, StretchesHoldWhatIsInThem) {
+TEST(MotionMap, TangentBoundsHoldInEveryInterval) {
   for (const char* curve : {hertz, exponential, table, R"({ "power": 9, "force": "2 N", "at": "5 mm" })"}) {
     const MotionMap map = map_of(curve);
     for (double from = 0; from < 6e-3; from += from == 0 ? 1e-6 : 0.37e-3)
@@ -116,7 +116,7 @@ std::string refusal_of(const std::string& text) {
   return render_text(diagnostics);
 }
 
-TEST(MotionMap, RefusesWhatHasNoMap) {
+TEST(MotionMap, RefusesNetworksWithoutAMap) {
   const std::string maxwell = R"({ "series": [ { "spring": "200 N/m" }, { "damper": "40 N s/m" } ] })";
   const std::string at_rest = refusal_of(behind(hertz, "", maxwell));
   EXPECT_NE(at_rest.find("static-without-rest"), std::string::npos) << at_rest;

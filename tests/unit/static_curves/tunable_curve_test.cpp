@@ -113,7 +113,7 @@ TEST(TunableCurve, KeepsForceOfAStifferAndElongationOfASofterSpring) {
 
 // If this failed, a second change before the next sample would jump from what the first has left, with one command held
 // for both.
-TEST(TunableCurve, ChangesBetweenTwoSamplesAreOne) {
+TEST(TunableCurve, TwoSetCallsActAsOne) {
   const std::string text =
       tuned(parameter("K", 400, 100, 1600) + ", " + parameter("k1", 300, 0, 900),
             R"({ "parallel": [ { "spring": "K" }, { "series": [ { "spring": "k1" }, { "damper": 30 } ] } ] })");

@@ -50,7 +50,7 @@ TEST(TunableRefusal, OfStatesThatFollowAVelocity) {
   const std::string said = said_of(file("\"network\": { \"spring\": \"K\" }"), choices);
   expect(said, "refused\n");
   expect(said,
-         "error: state input 'velocity' with tunable parameters; their states follow the position "
+         "error: --state-input velocity cannot be combined with tunable parameters; 'position' is expected "
          "[tunable-needs-position]");
 }
 

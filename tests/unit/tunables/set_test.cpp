@@ -163,7 +163,7 @@ TEST(Set, PaysForTheHoldWhereTheNewForceIsHeldAtOnce) {
 
 // If this failed, a change of parameters would spend what the tank holds back for forces that are still held: what is
 // stored would fall below 0, and the next change would raise it again.
-TEST(Set, LeavesWhatIsOwed) {
+TEST(Set, NeverSpendsTheReserveForHeldForces) {
   compiler::Device device;
   device.name = "described";
   device.description.loop.sample_period = period;
@@ -440,7 +440,7 @@ TEST(Set, HasTheCoefficientsOfTheLawCompiledAtItsValues) {
 }
 
 // If this failed, what a rise of stiffness owes would be owed for ever.
-TEST(Set, ComesHomeWhenTheToolHasLeft) {
+TEST(Set, DebtOfARiseEndsWhenTheToolHasLeft) {
   const TunableLaw compiled(pressed_network);
   Law changed(compiled.law()), born(compiled.law());
   const std::vector<double> values = {900, 100, 2};

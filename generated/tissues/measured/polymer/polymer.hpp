@@ -6,32 +6,34 @@
 // valid: frequency 1.59e-20 to 56.5 Hz
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 9.792702982160179e+24 N·s/m of damping, and the motor the rest of the force; by the rule
-//   'paper': in series, B1 turns 100 % of the energy into heat at low frequency, and the brake follows it; in
-//   series, B2 turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B3 turns
-//   100 % of the energy into heat at low frequency, and the brake follows it; in series, B4 turns 100 % of the
-//   energy into heat at low frequency, and the brake follows it; and 3 more series connections likewise
+//   'paper': in series, B1 dissipates 100 % of the energy at low frequency, so that the brake makes its 1.858e+07
+//   N s/m; in series, B2 dissipates 100 % of the energy at low frequency, so that the brake makes its 1.779e+11 N
+//   s/m; in series, B3 dissipates 100 % of the energy at low frequency, so that the brake makes its 1.216e+16 N
+//   s/m; in series, B4 dissipates 100 % of the energy at low frequency, so that the brake makes its 4.297e+19 N
+//   s/m; and 3 more series connections likewise
 // states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: not certified for any motion, samples at 1000 Hz: needs 9.7927e+24 N·s/m, most at 7.11478e-06 Hz, at
-//   least 9.7927e+24 N·s/m is there, 3.91708e+16 N·s/m more is missing in the brake's command
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: not certified: to be passive for any motion, samples at 1000 Hz, the law needs 9.7927e+24 N·s/m, the
+//   most at 7.11478e-06 Hz; 9.7927e+24 N·s/m is guaranteed; the brake's command would have to be 3.91708e+16 N·s/m
+//   larger
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 7.2e-11 of the
-//   sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion the law gives out no more work than stored_energy() decreases by; rounding changes the
+//   force by at most 7.2e-11 of the sum of its terms' magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 41 additions, 14 multiplications, 14 guards against subnormal numbers; 18 numbers kept between
 //   samples
 // rounding: in compensated form the force of a mode is off by at most 7.2e-11 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 78da512619a90884fafef2d18d67318526d8a1a49060a67bd92c916e18d81f8c. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 78da512619a90884fafef2d18d67318526d8a1a49060a67bd92c916e18d81f8c. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -7,29 +7,29 @@
 // valid: displacement 0 to 0.00226 m, rate 0 to 0.0227 m/s, frequency 0.000531 to 30.3 Hz
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 4.005 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
-//   turns 100 % of the energy into heat at low frequency, and the brake follows it
+//   dissipates 100 % of the energy at low frequency, so that the brake makes its 4.005 N s/m
 // states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: not certified for any motion, samples at 1000 Hz: needs 4.0051 N·s/m, most at 3.80179 Hz, at least
-//   4.005 N·s/m is there, 9.59054e-05 N·s/m more is missing in the brake's command
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: not certified: to be passive for any motion, samples at 1000 Hz, the law needs 4.0051 N·s/m, the most
+//   at 3.80179 Hz; 4.005 N·s/m is guaranteed; the brake's command would have to be 9.59054e-05 N·s/m larger
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 8.3e-13 of the
-//   sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion the law gives out no more work than stored_energy() decreases by; rounding changes the
+//   force by at most 8.3e-13 of the sum of its terms' magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 addition, 2 multiplications, 1 guard against subnormal numbers; 4 numbers kept between
 //   samples
 // rounding: the force of a mode is off by at most 8.3e-13 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// bb340aede63e8734aadb99f9902fa901e1b30d6f46f45feee2968a69f53a0188. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// bb340aede63e8734aadb99f9902fa901e1b30d6f46f45feee2968a69f53a0188. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -5,33 +5,33 @@
 //   E A u/L: force = stress times 1e-06 m^2, displacement = strain times 0.01 m; displacements are from each
 //   recording's first row
 // valid: displacement 0 to 0.00226 m, rate 0 to 0.0227 m/s, frequency 0.000531 to 30.3 Hz
-// static curve: exponential, 1502 1/m, 0.006965 N at 0.00226 m, at rest; the network lies behind a map w of the
-//   position u, for which u stands in what follows: f = w' F(w), b = w'^2 b_w, with 0.4762 <= w' <= 1.924; the
-//   curve's force is off by at most 0.00011 % of the largest, and w' by 2.3e-05 % of its largest
+// static curve: exponential, 1502 1/m, 0.006965 N at 0.00226 m, at rest; the network is stretched by w(u) instead
+//   of the position u, and u in the lines below stands for that w: f = w' F(w), b = w'^2 b_w, with 0.4762 <= w' <=
+//   1.924; the curve's force is off by at most 0.00011 % of the largest, and w' by 2.3e-05 % of its largest
 // scheme: exact at 1000 Hz, double: a motion whose w is straight between two samples is answered exactly
 // brake: makes b = 5.3572 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series,
-//   B1 turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 %
-//   of the energy into heat at low frequency, and the brake follows it
+//   B1 dissipates 100 % of the energy at low frequency, so that the brake makes its 0.2782 N s/m; in series, B2
+//   dissipates 100 % of the energy at low frequency, so that the brake makes its 5.079 N s/m
 // states: what the law remembers follows the measured position (position driven, as a network with a static curve
 //   always is)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
 // passivity: not certified: a static curve's steepness changes while the tool moves, and no device states how fast
 //   that is
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 13 additions, 12 multiplications, 0 guards against subnormal numbers
 // cost of update(): 5 additions, 4 multiplications, 2 guards against subnormal numbers; 7 numbers kept between
 //   samples
 // rounding: in delta form the force of a mode is off by at most 9.9e-13 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 1946f395bca0e4e9886b257e09edefa3831588886130e3d06aeb7f30cf85c344. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 1946f395bca0e4e9886b257e09edefa3831588886130e3d06aeb7f30cf85c344. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

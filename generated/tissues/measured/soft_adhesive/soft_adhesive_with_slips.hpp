@@ -3,34 +3,35 @@
 // source: Steps with holds from Chongran-Zhao/Viscoelastic-fitting (MIT), a pad of 100 mm² and 0.13 mm. Fitted by
 //   dashpot fit to shear_relaxation_1.csv, shear_relaxation_2.csv, shear_relaxation_5.csv
 // valid: displacement 0 to 0.0013 m, rate 0 to 1.43e-05 m/s, frequency 0.00012 to 0.333 Hz
-// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, except in
 //   samples in which a slip or a contact changes
-// brake: makes b = 441280 N·s/m of damping, behind slips also what the next lines give, and the motor the rest of
-//   the force; by the rule 'faithful': without a device 'faithful' is the paper's rule: in series, B1 turns 100 %
-//   of the energy into heat at low frequency, and the brake follows it
-// behind Y1: velocity-free, the only damping of what slides is at the tool; b = 0 N·s/m stuck, 0 sliding
+// brake: makes b = 441280 N·s/m of damping and, in the parts with slips, what the next lines give, and the motor
+//   the rest of the force; by the rule 'faithful': without a device 'faithful' is the paper's rule: in series, B1
+//   dissipates 100 % of the energy at low frequency, so that the brake makes its 419500 N s/m
+// slip rule of Y1: velocity-free, while slips slide, no damper acts beyond those at the tool; b = 0 N·s/m stuck, 0
+//   sliding
 // states: what the law remembers follows the measured position (position driven: on an ideal device position and
 //   velocity do equally well)
-// late velocity: passive with an exact brake at any delay of the velocity estimate; sampling is counted under
-//   'passivity'
-// passivity: certified for any motion, whatever slides, sticks, touches or lets go, samples at 1000 Hz: needs
-//   419496 N·s/m, most at 0.791694 Hz, at least 441280 N·s/m is there
+// late velocity: with an exact brake the law is passive at any delay of the velocity estimate, sampling aside,
+//   which 'passivity' covers
+// passivity: certified for any motion, whichever slips slide or stick and whether the tool touches or not, samples
+//   at 1000 Hz: needs 419496 N·s/m, the most at 0.791694 Hz; 441280 N·s/m is guaranteed
 //   without a device an ideal one is assumed, with the difference of two samples for the velocity, and no damping
 //   is added for passivity
-// energy: no motion gets more work out of any part than the part has stored, and slips and contacts only take
-//   energy; rounding adds at most 1.8e-15 of the sum of the force's terms
-// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
-//   period. Pass that velocity: a smoother estimate comes later, and nothing is certified for it here
+// energy: over any motion no part gives out more work than it has stored, and slips and contacts only dissipate
+//   energy; rounding changes the force by at most 1.8e-15 of the sum of its terms' magnitudes
+// device: none is named: exact brake, no delay, and as velocity the difference of the last two positions over the
+//   period. Pass that velocity: a smoother estimate comes later, and the certificate does not cover it
 // cost of output(): 6 additions, 4 multiplications, 0 guards against subnormal numbers
 // cost of update(): 5 additions, 2 multiplications, 3 guards against subnormal numbers; 7 numbers kept between
 //   samples
 // rounding: in compensated form the force of a mode is off by at most 6.7e-16 of its peak
 // words: passive means that the hand never gets more energy than it has put in; certified, that this is proved. A
-//   mode is a spring behind a damper, whose force dies away
+//   mode is a spring in series with a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 2899e8e36b3478b5b54d64ec28dd9973e0c9ddf1f34071da5a464a519a60cb52. It belongs to whoever had it
-// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+// 2899e8e36b3478b5b54d64ec28dd9973e0c9ddf1f34071da5a464a519a60cb52. It belongs to whoever emitted
+// it. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -60,7 +60,7 @@ class AxesFieldsTest(CommandTest):
         network = self.write("turning.json", json.dumps(field_of("turning", 1.5, 0.7)))
         said = self.text_of(network, "--device", "prompt.json")
         self.assertIn("a torque limiter (gate)", said)
-        self.assertIn("100 % of it in the mean", said)
+        self.assertIn("100 % of it on average", said)
         told = self.explained(network, "--device", "prompt.json")
         self.assertTrue(told["certified"])
         self.assertEqual(told["damping_for_estimates"], 0)
@@ -177,7 +177,7 @@ class AxesFieldsTest(CommandTest):
         """Fails if explain prints a workspace where there is no device."""
         network = self.write("turning.json", json.dumps(field_of("turning", 1.5, 5)))
         said = self.text_of(network)
-        self.assertIn("in the mean over the field, while", said)
+        self.assertIn("on average over the field, while", said)
         self.assertEqual(said.count("workspace"), said.count("and so no workspace"))
 
     # If this fails, a field over a grid is not what lies between its knots, or brakes and motors do not make all of it.

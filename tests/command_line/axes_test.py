@@ -398,7 +398,8 @@ class AxesTest(CommandTest):
         self.assertGreater(late["damping_for_lag"], 0)
         for network, device, reason in ((FIELD, "slow.json", "slew"),
                                         ("thick.json", PANTOGRAPH, "more than its brakes"),
-                                        (WALL, PANTOGRAPH, "the end of the contact is computed from the estimated velocity")):
+                                        (WALL, PANTOGRAPH,
+                                         "the end of the contact is computed from the estimated velocity")):
             text = " ".join(self.dashpot("explain", network, "--device", device).stdout.split())
             self.assertIn("not certified", text)
             self.assertIn(reason, text)

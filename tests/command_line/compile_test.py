@@ -226,7 +226,7 @@ int main(void) {
         for option in [["--batch"], ["--constant-time"], ["--certificate", "c.json"]]:
             done = self.dashpot("compile", "kelvin.json", "--target", "c99", *option, status=COMMAND_LINE_WRONG)
             self.assertIn(f"--target c99 does not support {option[0]}", done.stderr)
-            self.assertIn("note: --target cpp has it", done.stderr)
+            self.assertIn("note: --target cpp supports it", done.stderr)
 
     def test_functions_of_c99(self):
         """Fails if an element's value, a local number in C, hides a function that the same lines call."""

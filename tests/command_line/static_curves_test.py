@@ -87,7 +87,8 @@ class StaticCurvesTest(CommandTest):
                 done = self.dashpot("verify", "law.json", f"{name}.hpp", status=None)
                 self.assertEqual(done.returncode == 0, certificate["certified"], done.stdout + done.stderr)
                 again = self.dashpot("verify", "law.json", f"{name}.hpp", "--allow-uncertified").stdout
-                self.assertIn("recomputed from the network in 100 digits; banner and code are those of the network", again)
+                self.assertIn("recomputed from the network in 100 digits; banner and code are those of the network",
+                              again)
         self.dashpot("compile", SKIN, "--device", TRAINER, "--certificate", "law.json")
         self.assertTrue(json.loads((self.folder / "law.json").read_text())["passivity"]["certified"])
 

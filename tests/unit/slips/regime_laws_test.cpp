@@ -80,7 +80,8 @@ TEST(RegimeLaws, TheDefaultTakesTheLargestBrakeThatServes) {
     }
   const auto offers =
       decided(FigureTen{}.network(), "velocity-free", &device).decomposition.slips.components.front().offers;
-  EXPECT_NE(offers[2].refusal.find("'butterworth' has an infinite impulse response"), std::string::npos) << offers[2].refusal;
+  EXPECT_NE(offers[2].refusal.find("'butterworth' has an infinite impulse response"), std::string::npos)
+      << offers[2].refusal;
 }
 
 // (21) with the sign of the sliding force: B1 ∥ (K — slip) ∥ [B2 while sliding].

@@ -190,7 +190,7 @@ class WrongCommandLine(CommandTest):
             done = self.refused("run", FIG_5, "--device", PANTOGRAPH, "--port", "unix:absent.sock", "--for", "1",
                                 *option,
                                 code="simulated-device-only", status=COMMAND_LINE_WRONG)
-            self.assertIn(f"error: {option[0]} with --port", done.stderr)
+            self.assertIn(f"error: {option[0]} cannot be combined with --port", done.stderr)
         self.assertEqual(self.files(), [])
 
     def test_of_a_port_without_a_name(self):

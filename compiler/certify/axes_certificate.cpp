@@ -240,9 +240,7 @@ std::string uncovered_in_ports(const std::vector<CertifiedPort>& ports, const Ax
     const std::string of_port = fmt::format("port '{}': ", port.port->name);
     if (varies(port)) return of_port + "its damping changes with its slips, which no bound of two axes covers yet";
     if (!port.slips || !late) continue;
-    if (port.slips->lets_go_by_estimate)
-      return of_port + "the end of the contact is computed from the estimated velocity, and " + why_late(*late);
-    if (!port.slips->springs_alone) return of_port + "dampers are in the parts with slips, and " + why_late(*late);
+    if (const std::string why = uncovered_when_late(*port.slips, *late); !why.empty()) return of_port + why;
   }
   return "";
 }
@@ -660,14 +658,13 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
   }
   if (!std::isfinite(c.missing)) return {"passivity: not certified, since " + why_not_certified(c, device)};
   std::vector<std::string> lines;
-  lines.push_back(
-      fmt::format("passivity: {}: the torques that the motors hold from one sample to the next need {} of damping at "
-                  "the joints; after "
-                  "the joints' own damping{}, {} of it are still missing, most at ({:.4g}, {:.4g}) mm",
-                  c.certified ? "certified for any motion in the workspace, as long as no motor is at its limit"
-                              : "not certified, since " + why_not_certified(c, device),
-                  at_joints(c.needed, c, device), c.gate ? "" : " and the brakes' share of the network's",
-                  at_joints(c.missing, c, device), in_millimetres(c.worst[0]), in_millimetres(c.worst[1])));
+  lines.push_back(fmt::format(
+      "passivity: {}: the torques that the motors hold from one sample to the next need {} of damping at "
+      "the joints; after the joints' own damping{}, {} of it are still missing, most at ({:.4g}, {:.4g}) mm",
+      c.certified ? "certified for any motion in the workspace, as long as no motor is at its limit"
+                  : "not certified, since " + why_not_certified(c, device),
+      at_joints(c.needed, c, device), c.gate ? "" : " and the brakes' share of the network's",
+      at_joints(c.missing, c, device), in_millimetres(c.worst[0]), in_millimetres(c.worst[1])));
   if (const std::string limits = limits_of_motors(device); !limits.empty())
     lines.push_back(
         "  the motors make up to " + limits +
@@ -689,8 +686,7 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
   if (c.share)
     lines.push_back(
         fmt::format("  in {:.3g} % of the workspace, the damping that the motors make from velocity estimates stays "
-                    "passive for any "
-                    "delay that both joints share",
+                    "passive for any delay that both joints share",
                     100 * c.share->delay_proof));
   if (c.adds())
     lines.push_back(fmt::format("  added to the brakes' commands: {} {}{}; felt at the tip as up to {:.3g} N s/m more",

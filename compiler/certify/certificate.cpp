@@ -163,9 +163,7 @@ PassivityBound with_slips(PassivityBound bound, const SlipMotor& slips, const Sa
   if (loop.motor_slew > 0)
     return not_proved(
         "the motor's slew is limited, and its force jumps where a slip gives way or a contact begins or ends");
-  if (slips.lets_go_by_estimate && loop.is_late())
-    return not_proved(std::string("the end of the contact is computed from the estimated velocity, and ") +
-                      why_late(loop));
+  if (const std::string why = contact_uncovered_when_late(slips, loop); !why.empty()) return not_proved(why);
   if (loop.amplifier_lag > 0) {
     bound.proof = Proof::sampled;
     bound.reason = "the amplifier lags";

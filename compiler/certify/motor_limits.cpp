@@ -56,11 +56,7 @@ Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& sli
   const bool is_late = loop.is_late();
   // The brake's own excess covers what a ramp takes back, as long as both act on the same hold.
   add_estimate(slips->compensation + (is_late ? slips->held_compensation : 0), loop, gains);
-  if (is_late && !slips->springs_alone)
-    gains.hindrance = fmt::format("dampers are in the parts with slips, and {}", why_late(loop));
-  if (is_late && slips->lets_go_by_estimate)
-    gains.hindrance =
-        fmt::format("the end of the contact is computed from the estimated velocity, and {}", why_late(loop));
+  if (const std::string why = uncovered_when_late(*slips, loop); !why.empty()) gains.hindrance = why;
   return gains;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "certify/cut.hpp"
 #include "certify/held_slips.hpp"
@@ -165,6 +166,19 @@ std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& fo
     sum.make_up(slips.make_up);
   }
   return sum.result();
+}
+
+std::string contact_uncovered_when_late(const SlipMotor& motor, const SampledLoop& loop) {
+  return motor.lets_go_by_estimate && loop.is_late()
+             ? std::string("the end of the contact is computed from the estimated velocity, and ") + why_late(loop)
+             : "";
+}
+
+std::string uncovered_when_late(const SlipMotor& motor, const SampledLoop& loop) {
+  if (std::string contact = contact_uncovered_when_late(motor, loop); !contact.empty()) return contact;
+  return !motor.springs_alone && loop.is_late()
+             ? std::string("dampers are in the parts with slips, and ") + why_late(loop)
+             : "";
 }
 
 }  // namespace dashpot::compiler

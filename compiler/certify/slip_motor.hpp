@@ -18,6 +18,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "certify/motor_constants.hpp"
 #include "certify/sampled_loop.hpp"
@@ -53,5 +54,12 @@ double lateness(const SampledLoop& loop);
 
 // The factor of β in a loop that is late: 2s − 1 or s², rounded up.
 double stiffness_share(const SlipMotor& motor, const SampledLoop& loop);
+
+// Why no certificate covers such a contact where the loop is late, in words; empty if it is covered.
+std::string contact_uncovered_when_late(const SlipMotor& motor, const SampledLoop& loop);
+
+// The same where, in a late loop, forces of springs alone are bounded: why those of this contact, or of dampers in the
+// parts with slips, are not.
+std::string uncovered_when_late(const SlipMotor& motor, const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

@@ -50,7 +50,7 @@ std::optional<Compilation> compiled(const Network& network, Choices choices, con
   return compile(network, choices, device, of_trial, unseen);
 }
 
-// Of what is felt: in the band or, where slips give way, in runs around yield.
+// Of what is felt: in the band or, where slips give way, in the test motions.
 struct WorstError {
   double share;       // [1]
   const char* where;  // empty where there are no such runs
@@ -403,10 +403,10 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
   const auto add_without = [&](const std::vector<Lateness>& left_out) {
     const auto damping = remedies.own_damping(left_out);
     if (!damping) return false;
-    const std::string besides = left_out.empty() ? "" : " if " + Remedies::joined(left_out);
+    const std::string condition = left_out.empty() ? "" : " if " + Remedies::joined(left_out);
     if (remedies.at_joint(damping->value) > own)
       notes.add<DiagnosticCode::own_damping_that_would_do>(damping->error, damping->value, at_tool,
-                                                           remedies.at_tool(own), besides,
+                                                           remedies.at_tool(own), condition,
                                                            remedies.at_joint(damping->value), at_joint);
     else notes.add<DiagnosticCode::prompt_loop_that_would_do>(damping->error, Remedies::joined(left_out));
     return true;

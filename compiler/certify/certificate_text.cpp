@@ -92,8 +92,7 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
   if (c.certified && c.loop.encoder_step > 0)
     lines.push_back(
         "  the proof takes the position to be exact, without the energy that the encoder's steps inject; 'dashpot "
-        "explain' "
-        "states that under quantisation");
+        "explain' states that under quantisation");
   if (!c.energy.applies) return lines;
   std::string energy = "energy: ";
   if (!c.energy.holds)

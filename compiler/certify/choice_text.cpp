@@ -115,8 +115,7 @@ std::string choice_in_words(const Decomposition& decomposition, const ChosenFor&
   if (what.beside == Beside::nothing)
     return fmt::format(
         "All of the network is in parts with slips, and {} in parallel with them.{} What is felt of the slips depends "
-        "on the "
-        "motion: 'dashpot run --motion' measures it.",
+        "on the motion: 'dashpot run --motion' measures it.",
         taken, by_runs);
   std::string text = fmt::format(
       "{} and the felt force{} deviates by up to {} % in the band{}.", is_behind_curve ? taken : taken + ",",
@@ -126,8 +125,7 @@ std::string choice_in_words(const Decomposition& decomposition, const ChosenFor&
   if (what.is_tunable && !is_within(choice.largest_error, by.allowed_error))
     text +=
         " In the band it deviates by more than that, because more damping is added for passivity over the ranges of "
-        "the "
-        "parameters.";
+        "the parameters.";
   if (!by.certified) text += " No choice with an error as small as that is certified on this device.";
   // With tunables the two are not comparable: the paper's row is for the file's values, the choice for all in their
   // ranges.

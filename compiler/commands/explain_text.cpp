@@ -158,8 +158,7 @@ std::string static_text(const Compilation& c, const PortUnits& units) {
   if (c.network.valid.rate && c.network.valid.rate->high > 0)
     text += fmt::format(
         "quasi-linear law      a law of the same curve and relaxation would differ by up to {:.3g} % of the largest "
-        "force "
-        "in a ramp at {:.6g} {}\n",
+        "force in a ramp at {:.6g} {}\n",
         100 * distance_from_quasi_linear(c.network, c.form.linear, c.network.valid.rate->high),
         c.network.valid.rate->high, units.velocity);
   return text;
@@ -245,8 +244,7 @@ std::string legend_of_lines(const std::string& text) {
   const std::pair<const char*, const char*> lines[] = {
       {"share of the device",
        "the part of brake, motor and the device's own damping that this port may use. Each port is chosen for its "
-       "share; "
-       "'passivity' is about all ports together on the whole device"},
+       "share; 'passivity' is about all ports together on the whole device"},
       {"static curve", "the force at rest, or at once, over the displacement, which the file asks for"},
       {"quasi-linear law",
        "QLV: f = ∫ G(t − s) df_e(s), passive along one line, whose damping goes with the curve's slope"},
@@ -266,8 +264,7 @@ std::string legend_of_lines(const std::string& text) {
        "the damping that the law needs so that no motion of the tool gets energy out of the loop, and what "
        "the device has for certain. A hold is the time over which the motor's force stays, from one sample to the "
        "next. Where 'what is rendered is D + …' follows: D is the network's own answer to a motion, and s the rate of "
-       "change, so that so much damping "
-       "is felt beside the network"},
+       "change, so that so much damping is felt beside the network"},
       {"energy", "what the law itself can give back, and what rounding may add to it"},
       {"largest force", "what the law may ask of the motor, and what the motor can make"},
       {"over 'valid'", "the network's own force in such a motion, with its parameters as they are in the file"},

@@ -63,8 +63,7 @@ class FitText {
     if (is_motion) text += fmt::format(", {}", quantity_text(file.largest_position, units_.position, 4));
     text += fmt::format(
         "; errors of neighbouring rows correlate by {:.3f}, {:.4g} effective samples; scaled by {:.4f} the network "
-        "would "
-        "fit best",
+        "would fit best",
         file.lag_one, file.effective_samples, file.best_gain);
     if (file.gain != 1) text += fmt::format("; gain {:.4f}", file.gain);
     if (file.offset != 0)
@@ -74,8 +73,7 @@ class FitText {
     if (file.free_rows > 0)
       text += fmt::format(
           "\n    {} of the rows are left out: there the tool moves back faster than the tissue recovers and has left "
-          "it, so "
-          "that the force, {} rms, carries no information on it",
+          "it, so that the force, {} rms, carries no information on it",
           file.free_rows, quantity_text(file.free_rms, measured_unit(fit_, problem_), 4));
     return text + "\n";
   }

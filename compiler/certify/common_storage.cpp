@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "certify/recent.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -186,17 +188,11 @@ std::optional<CommonStorage> least_for(const std::vector<HoldInequality>& holds,
   return least(by_damping, std::move(at), excess);
 }
 
-}  // namespace
-
-bool serves(const HoldInequality& hold, const CommonStorage& tried) {
-  return log_determinant(tried.P) && log_determinant(matrix_of(hold, tried));
-}
-
 // Only few of the holds determine the result: the search begins with the last, and adds whichever is violated most. It
 // runs in coordinates in which `start` is the identity: otherwise the P of states that the input hardly reaches grows
 // so far beyond that of the others that rounding ends the search.
-std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequality>& holds, const CommonStorage& start,
-                                                  double excess) {
+std::optional<CommonStorage> searched(const std::vector<HoldInequality>& holds, const CommonStorage& start,
+                                      double excess) {
   const Eigen::Index n = start.P.rows();
   const Eigen::LLT<Matrix> factors(start.P);
   if (factors.info() != Eigen::Success) return std::nullopt;
@@ -219,6 +215,30 @@ std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequali
     if (!found) return std::nullopt;
     best = std::move(*found);
   }
+}
+
+// What a search reads, as numbers: two searches of which they are equal end alike.
+std::vector<double> all_numbers(const std::vector<HoldInequality>& holds, const CommonStorage& start, double excess) {
+  std::vector<double> all = {excess, start.damping, double(start.P.rows())};
+  const auto add = [&](const Matrix& M) { all.insert(all.end(), M.data(), M.data() + M.size()); };
+  add(start.P);
+  for (const HoldInequality& hold : holds) {
+    all.push_back(double(hold.constant.rows()));
+    add(hold.next), add(hold.constant), add(hold.damping);
+  }
+  return all;
+}
+
+}  // namespace
+
+bool serves(const HoldInequality& hold, const CommonStorage& tried) {
+  return log_determinant(tried.P) && log_determinant(matrix_of(hold, tried));
+}
+
+std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequality>& holds, const CommonStorage& start,
+                                                  double excess) {
+  thread_local Recent<std::vector<double>, std::optional<CommonStorage>> recent;
+  return recent.at(all_numbers(holds, start, excess), [&] { return searched(holds, start, excess); });
 }
 
 }  // namespace dashpot::compiler

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "certify/common_storage.hpp"
+#include "certify/recent.hpp"
 #include "linear/real_traits.hpp"
 
 namespace dashpot::compiler {
@@ -494,8 +495,9 @@ class StorageSearch {
 
   // All holds that differ in doubles.
   const std::vector<std::pair<OneHold<double>, Recursion<double>>>& all_holds() const {
+    thread_local Recent<checker::Device, std::vector<checker::Hold>> recent;
     if (holds_.empty())
-      for (const checker::Hold& hold : checker::holds(device_)) {
+      for (const checker::Hold& hold : recent.at(device_, [&] { return checker::holds(device_); })) {
         const checker::Rational all = hold.before + hold.after;  // [s]
         const OneHold<double> one{nearest<double>(1 / all),          nearest<double>(hold.decay),
                                   nearest<double>(hold.share),       nearest<double>(hold.spread / all),

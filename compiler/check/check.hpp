@@ -31,6 +31,7 @@ struct Device {
   std::string estimator;
   std::vector<double> estimator_coefficients;
   unsigned chosen = 1;  // of an adaptive window's lengths, the one that the sample takes
+  bool operator==(const Device&) const = default;
 };
 // One linear recursion for the loop: w is the tool's way while a command acts, u its position when that begins, `moved`
 // its way from the sample until then, `late` (a part of w) that of the next one. The motor holds stiffness·u + force.

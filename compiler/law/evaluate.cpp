@@ -296,14 +296,23 @@ Scalar Evaluation<Scalar>::stored_energy() {
 
 template <class Scalar>
 void Evaluation<Scalar>::run(const Instructions& program) {
-  for (const Instruction& instruction : program) {
-    if (instruction.solver == nullptr) {
-      take(instruction);
-      continue;
+  Scalar* const memory = memory_.data();
+  for (const Instruction& one : program) {
+    const Place *const a = &one.operands[0], *const b = a + 1, *const c = a + 2;
+    if (one.solver != nullptr) {
+      const Statement& statement = *one.solver;
+      std::visit([&](const auto& step) { take(step, statement, memory[a->first]); }, statement.step);
+    } else if (one.count == 1) {
+      take(one, [=](const auto& value) {
+        memory[one.target] = value(memory + a->first, memory + b->first, memory + c->first);
+      });
+    } else {
+      take(one, [=, &one](const auto& value) {
+        for (std::size_t i = 0; i < one.count; ++i)
+          memory[one.target + i] =
+              value(memory + a->first + i * a->step, memory + b->first + i * b->step, memory + c->first + i * c->step);
+      });
     }
-    const Statement& statement = *instruction.solver;
-    const Scalar given = memory_[instruction.operands[0].first];
-    std::visit([&](const auto& step) { take(step, statement, given); }, statement.step);
   }
 }
 
@@ -389,33 +398,25 @@ Scalar Evaluation<Scalar>::tune(const SlipNetwork& network, NetworkSolver& solve
 }
 
 template <class Scalar>
-void Evaluation<Scalar>::take(const Instruction& one) {
-  Scalar* const target = memory_.data() + one.target;
-  const Scalar *a = memory_.data() + one.operands[0].first, *b = memory_.data() + one.operands[1].first,
-               *c = memory_.data() + one.operands[2].first;
+template <class AtEach>
+void Evaluation<Scalar>::take(const Instruction& one, const AtEach& at_each) {
+  using Operand = const Scalar*;
   const auto flushed = [&](Scalar number) { return flush_below(static_cast<Scalar>(law_.flush_threshold), number); };
-  const auto at_each = [&](const auto& value) {
-    target[0] = value();
-    for (std::size_t i = 1; i < one.count; ++i) {
-      a += one.operands[0].step, b += one.operands[1].step, c += one.operands[2].step;
-      target[i] = value();
-    }
-  };
   switch (one.operation) {
     case Operation::read:
-    case Operation::constant: return at_each([&] { return *a; });
-    case Operation::add: return at_each([&] { return *a + *b; });
-    case Operation::subtract: return at_each([&] { return *a - *b; });
-    case Operation::multiply: return at_each([&] { return *a * *b; });
-    case Operation::divide: return at_each([&] { return *a / *b; });
-    case Operation::square_root: return at_each([&] { return square_root(*a); });
-    case Operation::mean_decay: return at_each([&] { return mean_decay(*a); });
-    case Operation::flush: return at_each([&] { return flushed(*a); });
-    case Operation::clamp: return at_each([&] { return clamp_to(*b, *a); });
-    case Operation::where: return at_each([&] { return *a > 0 ? *b : *c; });
-    case Operation::relax: return at_each([&] { return *c + *a * flushed(*b); });
-    case Operation::pick: return at_each([&] { return picked(b, one.last, *a); });
-    case Operation::sum: return at_each([&] { return sum(a, one.last + 1, one.lanes); });
+    case Operation::constant: return at_each([](Operand a, Operand, Operand) { return *a; });
+    case Operation::add: return at_each([](Operand a, Operand b, Operand) { return *a + *b; });
+    case Operation::subtract: return at_each([](Operand a, Operand b, Operand) { return *a - *b; });
+    case Operation::multiply: return at_each([](Operand a, Operand b, Operand) { return *a * *b; });
+    case Operation::divide: return at_each([](Operand a, Operand b, Operand) { return *a / *b; });
+    case Operation::square_root: return at_each([](Operand a, Operand, Operand) { return square_root(*a); });
+    case Operation::mean_decay: return at_each([](Operand a, Operand, Operand) { return mean_decay(*a); });
+    case Operation::flush: return at_each([&](Operand a, Operand, Operand) { return flushed(*a); });
+    case Operation::clamp: return at_each([](Operand a, Operand b, Operand) { return clamp_to(*b, *a); });
+    case Operation::where: return at_each([](Operand a, Operand b, Operand c) { return *a > 0 ? *b : *c; });
+    case Operation::relax: return at_each([&](Operand a, Operand b, Operand c) { return *c + *a * flushed(*b); });
+    case Operation::pick: return at_each([&](Operand a, Operand b, Operand) { return picked(b, one.last, *a); });
+    case Operation::sum: return at_each([&](Operand a, Operand, Operand) { return sum(a, one.last + 1, one.lanes); });
   }
 }
 

@@ -87,7 +87,9 @@ class Evaluation {
   static NetworkSolver solver_of(const SlipNetwork& network);
   void translate();
   void run(const Instructions& program);
-  void take(const Instruction& instruction);
+  // `at_each` is given the operation as a function of its operands.
+  template <class AtEach>
+  void take(const Instruction& instruction, const AtEach& at_each);
   void take(const Assign& step, const Statement& statement, Scalar given);
   void take(const SolveTree& step, const Statement& statement, Scalar given);
   void take(const SolveNetwork& step, const Statement& statement, Scalar given);

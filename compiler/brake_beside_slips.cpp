@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "certify/convex_search.hpp"
 #include "certify/settle.hpp"
@@ -18,7 +19,7 @@ constexpr double same_damping = 1e-9;  // of the brake's reach
 // A damping beside the slips that has been run.
 struct PlaceOnLine {
   Candidate beside;
-  std::vector<FeltForce> felt;
+  std::shared_ptr<const TriedLaw> tried;
   double added;  // for passivity [N·s/m]
   EvaluatedOption option;
 };
@@ -84,7 +85,7 @@ class BesideSearch {
     const Certificate& certificate = run.made.certificate;
     const bool is_proved = certificate.bound.proof != Proof::none;
     place.added = device_.behind_curve(certificate.added_damping);
-    place.felt = std::move(run.felt);
+    place.tried = run.tried;
     place.option = {run.merit.mean_damping, std::max(run.merit.error(), band_error(line, damping, place.added)),
                     is_proved ? std::optional(run.merit.minimum_damping) : std::nullopt, run.merit.certified,
                     run.merit.motor_noise};
@@ -105,7 +106,8 @@ class BesideSearch {
 
   // Between two neighbouring places, by interpolation.
   auto error_after(const Line& line, std::size_t i) {
-    return [&, i, in_runs = ErrorBetween(runs_.trial(), line.places[i].felt, line.places[i + 1].felt)](double share) {
+    const ErrorBetween& in_runs = runs_.between(*line.places[i].tried, *line.places[i + 1].tried);
+    return [&, i](double share) {
       const PlaceOnLine &low = line.places[i], &high = line.places[i + 1];
       const double band = band_error(line, damping_at(line, i, share), low.added + share * (high.added - low.added));
       return std::max(band, in_runs.at(share));

@@ -51,7 +51,7 @@ class SlipChooser {
     SlipOption& whole = *std::find_if(options_.begin(), options_.end(),
                                       [](const SlipOption& option) { return option.plan.law == SlipLaw::steady; });
     if (whole.merit.error() <= limit_ || floor.merit.error() > limit_) return;
-    const ErrorBetween error(runs_.trial(), floor.felt, whole.felt);
+    const ErrorBetween& error = runs_.between(*floor.tried, *whole.tried);
     double fits = 0, fails = 1;
     for (int i = 0; i < 30; ++i) {
       const double middle = (fits + fails) / 2;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "certify/certificate.hpp"
 #include "certify/curve_bound.hpp"
@@ -55,28 +56,39 @@ Compilation SlipRuns::made_with_room(const Candidate& beside, const SlipPlan& pl
   return whole;
 }
 
-std::vector<FeltForce> SlipRuns::felt_of(const UpdateLaw& law) {
+std::shared_ptr<const TriedLaw> SlipRuns::tried(const UpdateLaw& law) {
+  UpdateLaw key = law;
+  key.state_input = StateInput::position;  // from which its constants were found; a run does not read it
+  for (const std::shared_ptr<const TriedLaw>& known : tried_)
+    if (known->law == key) return known;
   if (!trial_) {
     coarse_ = by_motor(1);
     fine_ = behind_curve(by_motor(SlipTrial::instants_a_sample(device_)), 0);
     trial_.emplace(c_.network, coarse_, fine_, at_tool_);
   }
-  std::vector<FeltForce> felt;
-  for (std::size_t m = 0; m < trial_->motions().size(); ++m) felt.push_back(trial_->felt(law, m));
-  return felt;
+  TriedLaw now{std::move(key), {}, {}};
+  for (std::size_t m = 0; m < trial_->motions().size(); ++m) now.felt.push_back(trial_->felt(law, m));
+  now.error = trial_error(*trial_, now.felt);
+  return tried_.emplace_back(std::make_shared<const TriedLaw>(std::move(now)));
+}
+
+const ErrorBetween& SlipRuns::between(const TriedLaw& first, const TriedLaw& second) {
+  const auto known = between_.find({&first, &second});
+  if (known != between_.end()) return known->second;
+  return between_.emplace(std::pair(&first, &second), ErrorBetween(*trial_, first.felt, second.felt)).first->second;
 }
 
 SlipOption SlipRuns::run(const Candidate& beside, const SlipPlan& plan) {
   SlipOption option{plan, made_with_room(beside, plan), {}, {}, {}};
   option.merit.law = plan.law;
   const Compilation& made = option.made;
-  option.felt = felt_of(made.law);
+  option.tried = tried(made.law);
   double dissipated = 0, square = 0;
-  for (const FeltForce& felt : option.felt) {
+  for (const FeltForce& felt : option.tried->felt) {
     dissipated += felt.dissipated;
     square += felt.square_velocity;
   }
-  const TrialError error = trial_error(*trial_, option.felt);
+  const TrialError& error = option.tried->error;
   for (std::size_t m = 0; m < error.by_motion.size(); ++m)
     option.runs.push_back({trial_->motions()[m].name, error.by_motion[m]});
   SlipLawMerit& merit = option.merit;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "certify/sampled_loop.hpp"
@@ -14,10 +16,17 @@
 
 namespace dashpot::compiler {
 
+// What is felt with a law in the test motions.
+struct TriedLaw {
+  UpdateLaw law;
+  std::vector<FeltForce> felt;  // one a motion
+  TrialError error;
+};
+
 struct SlipOption {
   SlipPlan plan;
   Compilation made;
-  std::vector<FeltForce> felt;  // one a motion
+  std::shared_ptr<const TriedLaw> tried;
   SlipLawMerit merit;
   std::vector<SlipRunError> runs;
 };
@@ -33,7 +42,6 @@ class SlipRuns {
   // Restricts laws() to this one.
   void keep_to(SlipLaw law) { laws_ = {law}; }
   bool is_ideal() const { return device_.is_ideal(); }
-  const SlipTrial& trial() const { return *trial_; }
   const Candidate& chosen_beside() const { return c_.decomposition.choice(); }
 
   SlipDecomposition decomposed(const Candidate& beside, const SlipPlan& plan) const;
@@ -45,8 +53,11 @@ class SlipRuns {
   // Made with room, and run through all motions.
   SlipOption run(const Candidate& beside, const SlipPlan& plan);
 
+  // The error of what lies between two laws that were run.
+  const ErrorBetween& between(const TriedLaw& first, const TriedLaw& second);
+
  private:
-  std::vector<FeltForce> felt_of(const UpdateLaw& law);
+  std::shared_ptr<const TriedLaw> tried(const UpdateLaw& law);
   UpdateLaw by_motor(int times) const;
   UpdateLaw behind_curve(UpdateLaw law, double added_damping) const;
   Compilation made_by(const Candidate& beside, const SlipPlan& plan);
@@ -62,6 +73,9 @@ class SlipRuns {
   std::vector<SlipLaw> laws_;
   UpdateLaw coarse_, fine_;
   std::optional<SlipTrial> trial_;  // made before the first run
+  // All that were run: what differs between plans is often nothing that the law has.
+  std::vector<std::shared_ptr<const TriedLaw>> tried_;
+  std::map<std::pair<const TriedLaw*, const TriedLaw*>, ErrorBetween> between_;
   // Gaps of jitter (certify/proved_bound.hpp) as first found, so that a repeated run gives the same result.
   std::map<StateInput, double> gaps_;
 };

@@ -52,6 +52,8 @@ class Table : private std::vector<Entry> {
   Id<Entry> id_of(const Entry& entry) const { return Id<Entry>(static_cast<std::size_t>(&entry - Entries::data())); }
 
   bool has(Id<Entry> id) const { return id.place() < Entries::size(); }
+
+  bool operator==(const Table&) const = default;
 };
 
 }  // namespace dashpot::compiler

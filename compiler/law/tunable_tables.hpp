@@ -11,10 +11,25 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "law/id.hpp"
 #include "law/subject.hpp"
+
+namespace dashpot {
+
+inline bool operator==(const slip_node<double>& a, const slip_node<double>& b) {
+  return std::tie(a.kind, a.first_child, a.child_count, a.slips, a.place, a.first_corner, a.stiffness, a.compliance,
+                  a.yield) == std::tie(b.kind, b.first_child, b.child_count, b.slips, b.place, b.first_corner,
+                                       b.stiffness, b.compliance, b.yield);
+}
+
+inline bool operator==(const tunable_range<double>& a, const tunable_range<double>& b) {
+  return std::tie(a.value, a.min, a.max) == std::tie(b.value, b.min, b.max);
+}
+
+}  // namespace dashpot
 
 namespace dashpot::compiler {
 
@@ -43,6 +58,7 @@ struct BlockPart {
   int first_edge;
   int edge_count;
   bool is_loose;  // a spring in series with a slip, which can take up any rest length
+  bool operator==(const BlockPart&) const = default;
 };
 
 // A spring or a damper of a mesh between two of its nodes, counted from the mesh's first; `from` is the end at the
@@ -52,12 +68,14 @@ struct MeshEdge {
   int to;
   int spring;   // index into springs, or none
   int damping;  // index into numbers, or none
+  bool operator==(const MeshEdge&) const = default;
 };
 
 struct TunableBlock {
   int first_part;
   int part_count;
   double least_stiffness;  // behind a slip, its stiffness is not allowed to fall below [N/m]
+  bool operator==(const TunableBlock&) const = default;
 };
 
 // Yield force of a slip: the least of numbers[cuts[first]] …, one number for each way to cut it through.
@@ -65,6 +83,7 @@ struct TunableYield {
   int first_cut;
   int cut_count;
   double least;  // the yield force is not allowed to fall below [N]
+  bool operator==(const TunableYield&) const = default;
 };
 
 // Slips that are solved together in one tree: its nodes, its blocks and slips in the order of their places.
@@ -73,6 +92,7 @@ struct TunableCoupling {
   int node_count;
   int first_block;
   int first_slip;
+  bool operator==(const TunableCoupling&) const = default;
 };
 
 // The two ends of a block or slip where slips meet in no tree: inner ends are numbered from 0, then come the tool and
@@ -80,6 +100,7 @@ struct TunableCoupling {
 struct TunableEnds {
   int from;
   int to;
+  bool operator==(const TunableEnds&) const = default;
 };
 
 // Slips that are solved together and meet in no tree, and the blocks between their ends, one for each tie. With a
@@ -91,6 +112,7 @@ struct TunableGraph {
   int tie_count;
   int first_tie;
   int first_block;
+  bool operator==(const TunableGraph&) const = default;
 };
 
 // The surface that the tool pushes and cannot pull, if there is one.
@@ -98,6 +120,7 @@ struct TunableContact {
   bool is_there;
   double at;            // where it lies unloaded [m]
   double encoder_step;  // the largest gap at which the command goes on [m]
+  bool operator==(const TunableContact&) const = default;
 };
 
 // How slips take part in the brake's command.
@@ -105,6 +128,7 @@ struct TunableSlipRule {
   bool takes_part;
   double hysteresis;  // how far the tool moves before the command takes a slide as ended [m]
   double coil_share;  // κ: share of the missing √b that the coil makes up in a sample [1]
+  bool operator==(const TunableSlipRule&) const = default;
 };
 
 // The map of a static curve that the network lies behind, if there is one. Changes of parameters then also need energy
@@ -113,6 +137,7 @@ struct TunableMap {
   bool is_there;
   double largest_change;     // largest change of w while a force is held [m]
   double largest_stiffness;  // largest k of the spring between tool and ground [N/m]
+  bool operator==(const TunableMap&) const = default;
 };
 
 // When an offset shrinks, the motor still holds the old force: for how many samples, and how far the tool moves
@@ -121,6 +146,7 @@ struct TunableHold {
   int samples = 0;    // 0 if the device states no largest speed: nothing is counted then
   double change = 0;  // largest movement of the tool in a sample [m]
   double rest = 0;    // movement after these samples, weighted by what the amplifier's lag still holds [m]
+  bool operator==(const TunableHold&) const = default;
 };
 
 // Facts of the whole law. Block 0 is the part that joins tool and ground without a slip. With a contact and slips it
@@ -137,6 +163,7 @@ struct TunableHead {
   TunableMap map = {false, 0, 0};
   TunableHold hold = {};
   bool acts_late = false;  // commands act later than at the instants of their samples
+  bool operator==(const TunableHead&) const = default;
 };
 
 struct Tunable {
@@ -144,12 +171,14 @@ struct Tunable {
   std::string unit;
   tunable_range<double> range;
   Id<Variable> value = {};  // its variable in the law
+  bool operator==(const Tunable&) const = default;
 };
 
 struct TunableTerm {
   std::size_t tunable;
   double share;
   std::size_t element = 0;  // whose value it is, index into Network::elements
+  bool operator==(const TunableTerm&) const = default;
 };
 
 enum class NumberKind : std::uint8_t {
@@ -166,6 +195,7 @@ struct NumberSubject {
   NumberKind kind;
   ElementList elements;
   std::size_t mode = 0;
+  bool operator==(const NumberSubject&) const = default;
 };
 
 // base + Σ share · tunable
@@ -175,12 +205,14 @@ struct TunableNumber {
   std::string name;  // of the elements whose values are in it
   std::string unit;
   NumberSubject of;
+  bool operator==(const TunableNumber&) const = default;
 };
 
 // A relaxation that no tunable touches: φ, the share of a displacement that is left in its spring after a sample, and
 // α, the share that is lost in a sample.
 struct FixedRelaxation {
   double share, loss;
+  bool operator==(const FixedRelaxation&) const = default;
 };
 
 // The largest ratio h k/B: beyond it nothing is left of a relaxation after a sample.
@@ -204,6 +236,7 @@ struct TunableBrake {
   double added = 0;          // by the certificate, in every regime [N·s/m]
   double assured_share = 0;  // share of b that the motor may add while the coil lags [1]
   std::string text;          // what it follows, for people
+  bool operator==(const TunableBrake&) const = default;
 };
 
 // Numbers are already rounded to the law's scalar type.
@@ -238,6 +271,7 @@ struct TunableTables {
   std::vector<std::string> mesh_elements;  // whose states are kept by backward Euler, for people
   bool has_slips() const { return !yields.empty(); }
   bool sheds() const { return head.motor_limit > 0 || head.motor_step > 0; }
+  bool operator==(const TunableTables&) const = default;
 };
 
 // Larger networks are refused: set() reports each parameter by a bit, the work for a mesh of relaxations grows with the

@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -24,6 +25,14 @@
 #include "law/operation.hpp"
 #include "law/subject.hpp"
 #include "law/tunable_tables.hpp"
+
+namespace dashpot {
+
+inline bool operator==(const slip_link<double>& a, const slip_link<double>& b) {
+  return std::tie(a.a, a.b, a.lowest, a.highest) == std::tie(b.a, b.b, b.lowest, b.highest);
+}
+
+}  // namespace dashpot
 
 namespace dashpot::compiler {
 
@@ -54,6 +63,7 @@ struct Lanes {
 
   bool are_there() const { return count > 1; }
   std::size_t padded(std::size_t size) const { return (size + count - 1) / count * count; }  // whole rounds of the loop
+  bool operator==(const Lanes&) const = default;
 };
 
 struct Variable {
@@ -68,6 +78,7 @@ struct Variable {
 
   bool is_rolled() const { return lanes.are_there(); }
   bool is_kept() const { return role == Role::state || role == Role::tuned; }
+  bool operator==(const Variable&) const = default;
 };
 
 // What a constant is in the law's equations: what certificates, verification and reports ask for.
@@ -126,6 +137,7 @@ struct Coefficient {
 
   bool is_rolled() const { return lanes.are_there(); }
   bool is_table() const { return values.size() > 1 && element_names.empty(); }
+  bool operator==(const Coefficient&) const = default;
 };
 
 struct Expression {
@@ -133,15 +145,20 @@ struct Expression {
   std::array<ExpressionId, 3> operands = {};  // as many as the operation has, in the order of operations.def
   VariableId variable = {};                   // if the operation refers to one
   CoefficientId coefficient = {};             // if the operation refers to one
+  bool operator==(const Expression&) const = default;
 };
 
 // How a statement gets its target.
-struct Assign {};  // its value is assigned
+struct Assign {  // its value is assigned
+  bool operator==(const Assign&) const = default;
+};
 struct SolveTree {
   CouplingId coupling;  // coupled slips: the value is Δu, the target their force; δ and signs are assigned too
+  bool operator==(const SolveTree&) const = default;
 };
 struct SolveNetwork {
   SlipNetworkId network;  // the same for slips outside a tree
+  bool operator==(const SolveNetwork&) const = default;
 };
 
 struct Statement {
@@ -152,11 +169,13 @@ struct Statement {
   std::variant<Assign, SolveTree, SolveNetwork> step = Assign{};
 
   bool assigns() const { return std::holds_alternative<Assign>(step); }
+  bool operator==(const Statement&) const = default;
 };
 
 // A node's numbers that parameters change; no_variable if the node's own number holds.
 struct TunedNode {
   VariableId stiffness = no_variable, compliance = no_variable, yield = no_variable;
+  bool operator==(const TunedNode&) const = default;
 };
 
 // Slips that are solved together: what a step reads besides the change, and the locals that it assigns besides the
@@ -169,6 +188,7 @@ struct SolvedSlips {
   VariableId surface = no_variable;  // Δs, if a tool pushes the part and cannot pull it [m]
 
   bool is_pushed() const { return surface != no_variable; }
+  bool operator==(const SolvedSlips&) const = default;
 };
 
 // Slips that meet at inner nodes, with the blocks between them: one step is dashpot::slip_tree (theory, section 5).
@@ -186,6 +206,7 @@ struct Coupling : SolvedSlips {
     return is_pushed() ? slip_tree_push_operations(nodes.data(), node_count())
                        : slip_tree_operations(nodes.data(), node_count());
   }
+  bool operator==(const Coupling&) const = default;
 };
 
 // Numbers of a slip network that parameters change; no_variable if the network's own number holds.
@@ -193,6 +214,7 @@ struct TunedNetwork {
   std::vector<VariableId> yields;  // of every link, in both directions
   std::vector<VariableId> between, to_tool, to_ground;
   VariableId through = no_variable;
+  bool operator==(const TunedNetwork&) const = default;
 };
 
 // How the names of a slip network's emitted tables end.
@@ -213,6 +235,7 @@ struct SlipNetwork : SolvedSlips {
   int slip_count() const { return static_cast<int>(links.size()); }
   int patterns() const { return slip_network_patterns(links.data(), slip_count()); }
   int operations() const { return slip_network_operations(links.data(), slip_count(), node_count); }
+  bool operator==(const SlipNetwork&) const = default;
 };
 
 // A guard against subnormal numbers for a rolled vector of forces that decay slowly: before each update the next
@@ -222,6 +245,7 @@ struct GuardInTurn {
   VariableId state;
   std::size_t places;  // tested in a sample; a multiple of the lanes that divides the padded size
   std::string name;    // that of the emitted counter
+  bool operator==(const GuardInTurn&) const = default;
 };
 
 // How one mode is advanced; chosen by the error bound.
@@ -239,16 +263,19 @@ struct JointPorts {
   std::vector<VariableId> positions, velocities;    // inputs, one for each joint [rad] or [m], [rad/s] or [m/s]
   std::vector<VariableId> torques;                  // locals of `output`, one for each joint [N·m] or [N]
   std::vector<VariableId> dampings, last_dampings;  // one for each brake: locals of `output`, states that remember them
+  bool operator==(const JointPorts&) const = default;
 };
 
 // For a law of several ports: the value that reset() gives to a state that holds a port's position.
 struct PortStart {
   VariableId state, value;  // `value`: a local of `start`, or the position; 0 if that is not finite
+  bool operator==(const PortStart&) const = default;
 };
 
 // For a law of several ports: the port that a constant or table comes from, and its name in the port's own law.
 struct NameInPort {
   std::string port, name;
+  bool operator==(const NameInPort&) const = default;
 };
 
 struct UpdateLaw {
@@ -313,6 +340,7 @@ struct UpdateLaw {
   }
   // The position that the springs follow.
   VariableId moved() const { return mapped != no_variable ? mapped : position; }
+  bool operator==(const UpdateLaw&) const = default;
 };
 
 }  // namespace dashpot::compiler

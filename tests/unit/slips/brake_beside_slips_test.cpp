@@ -102,6 +102,34 @@ double mean_damping(const Compilation& c) {
 
 }  // namespace
 
+// Fails if a law is run again for another plan that comes to the same law, or if another law gets its forces.
+TEST(SlipRuns, RunEachLawOnce) {
+  const Network network = written_network(R"({"parallel": [
+      {"damper": 1}, {"series": [{"slip": 0.4}, {"spring": 400}]}]})");
+  const std::optional<Compilation> c = by_default(network, slow_stage());
+  ASSERT_TRUE(c);
+  const Choices choices = with_names({}, true);
+  const SlipDecomposer behind_slips(c->network, c->form, c->port.reference_frequency());
+  const auto beside = [&](double damping, StateInput input) {
+    Candidate candidate = c->decomposition.choice();
+    CandidateSettler(c->network, c->form, c->decomposition, choices, c->port, c->rate).place(candidate, damping);
+    candidate.state_input = input;
+    return candidate;
+  };
+  SlipRuns runs(*c, behind_slips, choices);
+  const SlipPlan plan = runs.plan(SlipLaw::velocity_free);
+  const SlipOption one = runs.run(beside(0.5, StateInput::position), plan);
+  EXPECT_EQ(runs.run(beside(0.5, StateInput::velocity), plan).tried, one.tried);
+  const SlipOption other = runs.run(beside(0.6, StateInput::position), plan);
+  EXPECT_NE(other.tried, one.tried);
+  SlipRuns afresh(*c, behind_slips, choices);
+  const SlipOption again = afresh.run(beside(0.6, StateInput::position), plan);
+  ASSERT_EQ(again.tried->felt.size(), other.tried->felt.size());
+  for (std::size_t m = 0; m < again.tried->felt.size(); ++m)
+    EXPECT_EQ(again.tried->felt[m].weak, other.tried->felt[m].weak);
+  EXPECT_EQ(again.merit.error(), other.merit.error());
+}
+
 // Fails if the brake beside the slips is chosen as if they always held: skin over a fascia that slides erred by 132 %
 // of the force's peak that way, certified.
 TEST(BrakeBesideSlips, IsWeighedByWhatTheSlipsDo) {

@@ -6,7 +6,6 @@
 
 #include "certify/convex_search.hpp"
 #include "certify/settle.hpp"
-#include "discretise/tunable_network.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -35,8 +34,7 @@ class BesideSearch {
  public:
   BesideSearch(const Compilation& c, const Choices& choices, SlipRuns& runs)
       : runs_(runs),
-        present_(at_default(c.network)),
-        settler_(present_, c.form, c.decomposition, choices, c.port, c.rate),
+        settler_(c.present, c.form, c.decomposition, choices, c.port, c.rate),
         choices_(choices),
         device_(c.port),
         before_(runs.chosen_beside()) {
@@ -164,7 +162,6 @@ class BesideSearch {
   }
 
   SlipRuns& runs_;
-  Network present_;
   CandidateSettler settler_;
   const Choices& choices_;
   const PortDevice& device_;

@@ -13,7 +13,6 @@
 #include "discretise/element_names.hpp"
 #include "discretise/discretise.hpp"
 #include "discretise/rounding.hpp"
-#include "discretise/tunable_network.hpp"
 #include "law/representable.hpp"
 #include "linear/motion_map.hpp"
 #include "linear/reach.hpp"
@@ -23,6 +22,7 @@
 #include "lower/drop_unread.hpp"
 #include "lower/roll.hpp"
 #include "lower/shed.hpp"
+#include "network/effect.hpp"
 #include "network/port_units.hpp"
 #include "slip_choice.hpp"
 #include "syntax/parse_network.hpp"
@@ -39,8 +39,8 @@ bool is_faithful(const Compilation& c) { return c.decomposition.choice().name ==
 
 // How `faithful` moves while the values that the device file assumes are varied; `gap` of jitter as found for the
 // choice.
-std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present, const SlipDecomposer& behind_slips,
-                                    const Choices& choices, double gap) {
+std::optional<ChoiceMoves> moves_of(const Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices,
+                                    double gap) {
   const Candidate& choice = c.decomposition.choice();
   ChoiceMoves moves{choice.damping, choice.damping, ""};
   double furthest = 1e-6 * choice.damping;
@@ -49,16 +49,16 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
     again.device = device;
     again.port = port;
     Candidate& candidate = again.decomposition.choice();
-    CandidateSettler settler(present, c.form, c.decomposition, choices, port, c.rate);
+    CandidateSettler settler(c.present, c.form, c.decomposition, choices, port, c.rate);
     settler.assume_jitter_gap(gap);
     settler.settle(candidate);
-    choose_over_box(c.network, c.form, again.decomposition, choices, port, c.rate);
+    choose_over_box(c.network, c.present, c.form, again.decomposition, choices, port, c.rate);
     return c.form.has_slips() ? damping_on_another_device(again, behind_slips, choices) : candidate.damping;
   };
   const std::vector<VariedDevice> devices = with_assumed_varied(*c.device);
   for (const VariedDevice& varied : devices) {
     Diagnostics of_varied;  // a device that would be refused moves nothing
-    const std::optional<PortDevice> port = PortDevice::of(varied.device, present, of_varied);
+    const std::optional<PortDevice> port = PortDevice::of(varied.device, c.present, of_varied);
     if (!port) continue;
     const double again = chosen_on(*port, varied.device);
     moves.least = std::min(moves.least, again);
@@ -71,21 +71,21 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
 
 // Without a device nothing tells the state inputs apart, and nothing is added: the certificate comes with the law. Out:
 // the gap of jitter at what is chosen.
-double settle_choice(Compilation& c, const Network& present, const Choices& choices) {
+double settle_choice(Compilation& c, const Choices& choices) {
   if (c.port.is_ideal()) return 1;
-  CandidateSettler settler(present, c.form, c.decomposition, choices, c.port, c.rate);
+  CandidateSettler settler(c.present, c.form, c.decomposition, choices, c.port, c.rate);
   settler.settle(c.decomposition.choice());
   if (is_faithful(c)) {
-    choose_over_box(c.network, c.form, c.decomposition, choices, c.port, c.rate);
+    choose_over_box(c.network, c.present, c.form, c.decomposition, choices, c.port, c.rate);
     c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), c.network, choices);
   }
   return settler.last_jitter_gap();
 }
 
 // What is compared with the choice, with what is chosen behind the slips.
-void settle_compared(Compilation& c, const Network& present, const Choices& choices) {
+void settle_compared(Compilation& c, const Choices& choices) {
   if (c.port.is_ideal()) return;
-  CandidateSettler settler(present, c.form, c.decomposition, choices, c.port, c.rate);
+  CandidateSettler settler(c.present, c.form, c.decomposition, choices, c.port, c.rate);
   for (Candidate& candidate : c.decomposition.candidates)
     if (&candidate != &c.decomposition.choice() && is_compared(candidate)) settler.settle(candidate);
   if (is_faithful(c)) return;
@@ -97,13 +97,13 @@ void settle_compared(Compilation& c, const Network& present, const Choices& choi
 
 // Everything about the choice that the loop decides. With tunable parameters it stays as it was split, and nothing has
 // to be run, but where `faithful` looks for it.
-void settle(Compilation& c, const Network& present, const SlipDecomposer& behind_slips, const Choices& choices) {
+void settle(Compilation& c, const SlipDecomposer& behind_slips, const Choices& choices) {
   if (has_tunables(c.network) && !is_faithful(c)) return;
-  const double gap = settle_choice(c, present, choices);
+  const double gap = settle_choice(c, choices);
   if (c.form.has_slips()) choose_slip_law(c, behind_slips, choices);
-  if (choices.compared != Compared::nothing) settle_compared(c, present, choices);
+  if (choices.compared != Compared::nothing) settle_compared(c, choices);
   if (c.decomposition.choice().faithful && choices.compared == Compared::variations)
-    c.decomposition.moves = moves_of(c, present, behind_slips, choices, gap);
+    c.decomposition.moves = moves_of(c, behind_slips, choices, gap);
 }
 
 Beside what_is_beside_slips(const NormalForm& form) {
@@ -115,10 +115,10 @@ Beside what_is_beside_slips(const NormalForm& form) {
 double added_behind_curve(const Compilation& c) { return c.port.behind_curve(c.certificate.added_damping); }
 
 // The error of the law as it is.
-void tell_what_is_felt(Compilation& c, const Network& present, const Choices& choices) {
+void tell_what_is_felt(Compilation& c, const Choices& choices) {
   if (c.port.is_ideal()) return;
   Candidate& choice = c.decomposition.choice();
-  CandidateSettler settler(present, c.form, c.decomposition, choices, c.port, c.rate);
+  CandidateSettler settler(c.present, c.form, c.decomposition, choices, c.port, c.rate);
   choice.largest_error = settler.largest_error(choice, added_behind_curve(c));
   if (choices.compared == Compared::nothing) return;
   c.decomposition.in_words = choice_in_words(
@@ -235,6 +235,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   if (!form || !put_behind_curve(network, present, *form, diagnostics)) return std::nullopt;
   Compilation result;
   result.network = std::move(network);
+  result.present = std::move(present);
   result.device = device;
   result.registers = choices.registers;
   result.rate = choices.rate.value_or(device ? 1 / device->description.loop.sample_period : default_rate);
@@ -245,19 +246,19 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   result.port = std::move(*port);
   if (device) warn_of_reach(result, diagnostics);
   times.enter("decomposition");
-  const SlipDecomposer behind_slips(present, result.form, result.port.reference_frequency());
+  const SlipDecomposer behind_slips(result.present, result.form, result.port.reference_frequency());
   std::optional<Decomposition> decomposition =
-      decompose(present, result.form, behind_slips, choices, result.port, diagnostics);
+      decompose(result.present, result.form, behind_slips, choices, result.port, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
-  settle(result, present, behind_slips, choices);
+  settle(result, behind_slips, choices);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
   times.enter("discretisation");
   warn_about_rate_and_scalar(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
   if (has_tunables(result.network)) {
     result.decomposition.reason = "position driven, so that a change of parameters injects no energy";
-    std::optional<UpdateLaw> law = discretise_tunable(result.network, result.form, result.decomposition, choices,
-                                                      result.rate, result.port, diagnostics);
+    std::optional<UpdateLaw> law = discretise_tunable(result.network, result.present, result.form, result.decomposition,
+                                                      choices, result.rate, result.port, diagnostics);
     if (!law) return std::nullopt;
     result.law = without_unread_locals(std::move(*law));
   } else {
@@ -270,7 +271,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   certify_law(result, choices);
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   if (!result.port.is_ideal() && result.beyond_linear()) tell_of_certificate(result);
-  tell_what_is_felt(result, present, choices);
+  tell_what_is_felt(result, choices);
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;
 }

@@ -121,7 +121,7 @@ bool is_lost_over_box(const Compilation& c, const Candidate& other, const Choice
   if (c.decomposition.choice().certified != true) return false;
   Decomposition changed = c.decomposition;
   changed.choice() = other;
-  return !is_certified_over_box(c.network, c.form, changed, choices, c.port, c.rate);
+  return !is_certified_over_box(c.network, c.present, c.form, changed, choices, c.port, c.rate);
 }
 
 }  // namespace

@@ -8,17 +8,16 @@
 #include "certify/curve_bound.hpp"
 #include "certify/settle.hpp"
 #include "discretise/discretise.hpp"
-#include "discretise/tunable_network.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
 class BoxChoice {
  public:
-  BoxChoice(const Network& network, const NormalForm& form, const Decomposition& decomposition, const Choices& choices,
-            const PortDevice& port, double rate)
+  BoxChoice(const Network& network, const Network& present, const NormalForm& form, const Decomposition& decomposition,
+            const Choices& choices, const PortDevice& port, double rate)
       : network_(network),
-        present_(at_default(network)),
+        present_(present),
         form_(form),
         decomposition_(decomposition),
         choices_(choices),
@@ -38,7 +37,8 @@ class BoxChoice {
     Decomposition tried = decomposition_;
     tried.choice() = result.candidate;
     Diagnostics of_trial;  // a damping at which no law can be written is not chosen
-    std::optional<UpdateLaw> law = discretise_tunable(network_, form_, tried, choices_, rate_, port_, of_trial);
+    std::optional<UpdateLaw> law =
+        discretise_tunable(network_, present_, form_, tried, choices_, rate_, port_, of_trial);
     if (!law) return std::nullopt;
     const SampledLoop loop = sampled_loop(port_, 1 / rate_);
     const std::optional<SlipMotor> slips = slip_motor(network_, form_, tried, choices_, loop);
@@ -57,7 +57,7 @@ class BoxChoice {
 
  private:
   const Network& network_;
-  Network present_;
+  const Network& present_;
   const NormalForm& form_;
   const Decomposition& decomposition_;
   const Choices& choices_;
@@ -68,8 +68,8 @@ class BoxChoice {
 
 }  // namespace
 
-void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
-                     const Choices& choices, const PortDevice& port, double rate) {
+void choose_over_box(const Network& network, const Network& present, const NormalForm& form,
+                     Decomposition& decomposition, const Choices& choices, const PortDevice& port, double rate) {
   if (!has_tunables(network)) return;
   constexpr int halvings = 3;  // of the interval to the next larger damping that was tried
   constexpr double none = std::numeric_limits<double>::infinity();
@@ -77,7 +77,7 @@ void choose_over_box(const Network& network, const NormalForm& form, Decompositi
   const Candidate& faithful = decomposition.choice();
   const double feedthrough = to_double(form.linear.feedthrough_damping);
   const double most = std::min(feedthrough, port.max_damping().value_or(feedthrough));
-  BoxChoice box(network, form, decomposition, choices, port, rate);
+  BoxChoice box(network, present, form, decomposition, choices, port, rate);
   std::vector<Candidate> candidates;
   std::vector<EvaluatedOption> options;
   const auto look_at = [&](double damping) {
@@ -105,11 +105,13 @@ void choose_over_box(const Network& network, const NormalForm& form, Decompositi
   decomposition.choice().faithful = choice;
 }
 
-bool is_certified_over_box(const Network& network, const NormalForm& form, const Decomposition& decomposition,
-                           const Choices& choices, const PortDevice& port, double rate) {
+bool is_certified_over_box(const Network& network, const Network& present, const NormalForm& form,
+                           const Decomposition& decomposition, const Choices& choices, const PortDevice& port,
+                           double rate) {
   if (!has_tunables(network)) return true;
   const Candidate& choice = decomposition.choice();
-  const auto weighed = BoxChoice(network, form, decomposition, choices, port, rate).weighed(choice, choice.damping);
+  const auto weighed =
+      BoxChoice(network, present, form, decomposition, choices, port, rate).weighed(choice, choice.damping);
   return weighed && weighed->option.certified;
 }
 

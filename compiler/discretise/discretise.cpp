@@ -265,13 +265,13 @@ void warn_about_rate_and_scalar(const Network& network, const NormalForm& form, 
   if (choices.scalar == ScalarType::float32) warn_about_float_range(network, realised, diagnostics);
 }
 
-std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form,
+std::optional<UpdateLaw> discretise_tunable(const Network& network, const Network& present, const NormalForm& form,
                                             const Decomposition& decomposition, const Choices& choices, double rate,
                                             const PortDevice& device, Diagnostics& diagnostics) {
   const Real sample_period = 1 / Real(rate);
   UpdateLaw law = blank_law(decomposition.choice(), choices, sample_period);
-  law.tunable = tunable_tables_of(linear_part(at_default(network), form), network, decomposition, choices,
-                                  sample_period, device, diagnostics);
+  law.tunable = tunable_tables_of(linear_part(present, form), network, decomposition, choices, sample_period, device,
+                                  diagnostics);
   law.mode_form = ModeForm::delta;
   if (!law.tunable) return std::nullopt;
   return with_programs(std::move(law));

@@ -20,9 +20,9 @@ UpdateLaw discretise(const Network& network, const NormalForm& form, const Decom
 void warn_about_rate_and_scalar(const Network& network, const NormalForm& form, const Decomposition& decomposition,
                                 const Choices& choices, double rate, Diagnostics& diagnostics);
 
-// The same for a network with tunables; form and decomposition are those of its default values. Refuses: what
-// tunable_tables_of() refuses.
-std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form,
+// The same for a network with tunables; `present`, form and decomposition are those of its default values. Refuses:
+// what tunable_tables_of() refuses.
+std::optional<UpdateLaw> discretise_tunable(const Network& network, const Network& present, const NormalForm& form,
                                             const Decomposition& decomposition, const Choices& choices, double rate,
                                             const PortDevice& device, Diagnostics& diagnostics);
 

@@ -12,7 +12,6 @@
 #include "discretise/tunable_blocks.hpp"
 #include "discretise/tunable_graph.hpp"
 #include "linear/validity.hpp"
-#include "network/effect.hpp"
 #include "network/law.hpp"
 
 namespace dashpot::compiler {
@@ -290,15 +289,6 @@ bool is_too_large(const TunableTables& tables, const Network& network, Diagnosti
 }
 
 }  // namespace
-
-Network at_default(const Network& network) {
-  Network present = network;
-  std::vector<bool> passable;
-  for (const Element& element : network.elements) passable.push_back(element.has_effect && value_of(element.law) > 0);
-  const std::vector<bool> has_effect = on_path_between_ends(network, passable);
-  for (std::size_t i = 0; i < present.elements.size(); ++i) present.elements[i].has_effect = has_effect[i];
-  return present;
-}
 
 std::optional<TunableTables> tunable_tables_of(const Network& linear, const Network& network,
                                                const Decomposition& decomposition, const Choices& choices,

@@ -10,9 +10,6 @@
 
 namespace dashpot::compiler {
 
-// The same network, with elements that transmit no force at the tunables' default values marked as without effect.
-Network at_default(const Network& network);
-
 // In: a network with tunables; its linear part and its canonical form at the default values, the decomposition chosen
 // for it. Out: its tables. Ensures: parts that no tunable touches are reduced to modes, Maxwell branches keep the
 // chosen scheme, other parts with tunables keep element states by backward Euler. Refuses: more states, slips, … than

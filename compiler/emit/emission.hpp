@@ -25,6 +25,7 @@ struct DeviceShare {
 // choice is the sum of theirs.
 struct Compilation {
   Network network;
+  Network present;  // the same at the default values of its parameters (network/effect.hpp)
   NormalForm form;
   Decomposition decomposition;
   UpdateLaw law;

@@ -115,4 +115,13 @@ std::vector<bool> may_carry_force(const Network& network) {
   return may_carry;
 }
 
+Network at_default(const Network& network) {
+  Network present = network;
+  std::vector<bool> passable;
+  for (const Element& element : network.elements) passable.push_back(element.has_effect && value_of(element.law) > 0);
+  const std::vector<bool> has_effect = on_path_between_ends(network, passable);
+  for (std::size_t i = 0; i < present.elements.size(); ++i) present.elements[i].has_effect = has_effect[i];
+  return present;
+}
+
 }  // namespace dashpot::compiler

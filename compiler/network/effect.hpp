@@ -16,4 +16,7 @@ std::vector<bool> on_path_between_ends(const Network& network, const std::vector
 // One entry an element: false where its value is zero and cannot become anything else.
 std::vector<bool> may_carry_force(const Network& network);
 
+// The same network, with elements that transmit no force at the tunables' default values marked as without effect.
+Network at_default(const Network& network);
+
 }  // namespace dashpot::compiler

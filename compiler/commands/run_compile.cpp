@@ -11,7 +11,6 @@
 #include "commands/commands.hpp"
 #include "commands/explain.hpp"
 #include "compile.hpp"
-#include "discretise/tunable_network.hpp"
 #include "emit/response_test.hpp"
 #include "emit/write_files.hpp"
 #include "insist.hpp"

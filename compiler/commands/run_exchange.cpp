@@ -4,7 +4,6 @@
 #include "commands/commands.hpp"
 #include "commands/exchange.hpp"
 #include "compile.hpp"
-#include "discretise/tunable_network.hpp"
 #include "exchange/network_text.hpp"
 #include "exchange/prony_format.hpp"
 #include "network/law.hpp"

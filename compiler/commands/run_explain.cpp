@@ -3,7 +3,6 @@
 #include "commands/commands.hpp"
 #include "commands/exchange.hpp"
 #include "commands/explain.hpp"
-#include "discretise/tunable_network.hpp"
 #include "exchange/network_text.hpp"
 #include "exchange/prony_format.hpp"
 #include "insist.hpp"

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "discretise/tunable_network.hpp"
+#include "decompose/choices.hpp"
+#include "law/tunable_tables.hpp"
 #include "linear/linear_form.hpp"
 #include "linear/modal_reduction.hpp"
 #include "network/tree.hpp"

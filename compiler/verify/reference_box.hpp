@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "discretise/tunable_network.hpp"
 #include "verify/reference_gain.hpp"
 
 namespace dashpot::compiler {

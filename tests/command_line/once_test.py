@@ -56,7 +56,7 @@ class Once(unittest.TestCase):
 
     def test_static_curve(self):
         self.check(["what has an effect", "normal form", "static curve's map", "device as the network sees it"],
-                   NETWORKS / "static/ligament.json", "--device", DEVICE)
+                   NETWORKS / "static/ligament.json", "--device", DEVICE, "--uncertified")
 
     # Each slip's part has a tree of its own; of the whole network there is one normal form.
     def test_slips(self):

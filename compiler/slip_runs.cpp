@@ -58,7 +58,7 @@ Compilation SlipRuns::made_with_room(const Candidate& beside, const SlipPlan& pl
 
 std::shared_ptr<const TriedLaw> SlipRuns::tried(const UpdateLaw& law) {
   UpdateLaw key = law;
-  key.state_input = StateInput::position;  // from which its constants were found; a run does not read it
+  key.state_input = StateInput::position;  // says how its constants were found; a run does not read it
   for (const std::shared_ptr<const TriedLaw>& known : tried_)
     if (known->law == key) return known;
   if (!trial_) {
@@ -73,9 +73,7 @@ std::shared_ptr<const TriedLaw> SlipRuns::tried(const UpdateLaw& law) {
 }
 
 const ErrorBetween& SlipRuns::between(const TriedLaw& first, const TriedLaw& second) {
-  const auto known = between_.find({&first, &second});
-  if (known != between_.end()) return known->second;
-  return between_.emplace(std::pair(&first, &second), ErrorBetween(*trial_, first.felt, second.felt)).first->second;
+  return between_.try_emplace({&first, &second}, *trial_, first.felt, second.felt).first->second;
 }
 
 SlipOption SlipRuns::run(const Candidate& beside, const SlipPlan& plan) {

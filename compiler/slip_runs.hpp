@@ -73,7 +73,7 @@ class SlipRuns {
   std::vector<SlipLaw> laws_;
   UpdateLaw coarse_, fine_;
   std::optional<SlipTrial> trial_;  // made before the first run
-  // All that were run: what differs between plans is often nothing that the law has.
+  // All laws that were run: different plans often come to the same one.
   std::vector<std::shared_ptr<const TriedLaw>> tried_;
   std::map<std::pair<const TriedLaw*, const TriedLaw*>, ErrorBetween> between_;
   // Gaps of jitter (certify/proved_bound.hpp) as first found, so that a repeated run gives the same result.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "decompose/observer.hpp"
 #include "network/disjoint_sets.hpp"
@@ -22,8 +23,7 @@ void keep_only(const std::vector<std::size_t>& elements, Network& network) {
 void drop_what_carries_no_force(Network& network) {
   std::vector<bool> passable;
   for (const Element& element : network.elements) passable.push_back(element.has_effect && element.a != element.b);
-  const std::vector<bool> on_path = on_path_between_ends(network, passable);
-  for (std::size_t i = 0; i < on_path.size(); ++i) network.elements[i].has_effect = on_path[i];
+  network = along(passable, std::move(network));
 }
 
 std::vector<bool> pattern(std::size_t index, std::size_t slips) {

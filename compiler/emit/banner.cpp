@@ -111,8 +111,7 @@ void describe_tunables(const UpdateLaw& law, const SampledLoop& loop, const std:
     facts.push_back(fmt::format(
         "  here {}: forces from before a change still act for that time. The energy that a softened spring loses pays "
         "for them, but a spring that stiffens again within that time may inject half the rise of its stiffness times "
-        "the "
-        "square of the tool's way; a certificate covers what happens between changes",
+        "the square of the tool's way; a certificate covers what happens between changes",
         why_late(loop)));
   facts.push_back(fmt::format("  b [{}] after set(): {}", damping_unit, tables.brake.text));
   if (!elements.empty())
@@ -141,8 +140,7 @@ void describe_curve(const Compilation& c, std::vector<std::string>& facts) {
     facts.push_back(fmt::format(
         "static curve: {}; the network is stretched by w(u) instead of the position u, and u in the lines below stands "
         "for that w: f = w' F(w), b = w'^2 b_w, with {:.4g} <= w' <= {:.4g}; the curve's force is off by at most "
-        "{:.2g} % "
-        "of the largest, and w' by {:.2g} % of its largest",
+        "{:.2g} % of the largest, and w' by {:.2g} % of its largest",
         to_text(*c.network.static_curve, c.network.port_motion), c.network.map->least_tangent(0, c.network.map->reach),
         c.network.map->steepest(), 100 * c.network.map->static_error, 100 * c.network.map->slope_error));
 }

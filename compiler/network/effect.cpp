@@ -1,6 +1,7 @@
 #include "network/effect.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "network/law.hpp"
 
@@ -105,6 +106,12 @@ std::vector<bool> on_path_between_ends(const Network& network, const std::vector
   return on_path;
 }
 
+Network along(const std::vector<bool>& passable, Network network) {
+  const std::vector<bool> on_path = on_path_between_ends(network, passable);
+  for (std::size_t i = 0; i < on_path.size(); ++i) network.elements[i].has_effect = on_path[i];
+  return network;
+}
+
 std::vector<bool> may_carry_force(const Network& network) {
   std::vector<bool> may_carry;
   for (const Element& element : network.elements) {
@@ -116,12 +123,9 @@ std::vector<bool> may_carry_force(const Network& network) {
 }
 
 Network at_default(const Network& network) {
-  Network present = network;
   std::vector<bool> passable;
   for (const Element& element : network.elements) passable.push_back(element.has_effect && value_of(element.law) > 0);
-  const std::vector<bool> has_effect = on_path_between_ends(network, passable);
-  for (std::size_t i = 0; i < present.elements.size(); ++i) present.elements[i].has_effect = has_effect[i];
-  return present;
+  return along(passable, network);
 }
 
 }  // namespace dashpot::compiler

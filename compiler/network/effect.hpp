@@ -13,6 +13,9 @@ namespace dashpot::compiler {
 // block with that edge.
 std::vector<bool> on_path_between_ends(const Network& network, const std::vector<bool>& passable);
 
+// The same network, in which only elements on such a path have an effect.
+Network along(const std::vector<bool>& passable, Network network);
+
 // One entry an element: false where its value is zero and cannot become anything else.
 std::vector<bool> may_carry_force(const Network& network);
 

@@ -1,5 +1,6 @@
 #include "network/stuck_and_open_slips.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "network/disjoint_sets.hpp"
@@ -7,16 +8,6 @@
 #include "network/law.hpp"
 
 namespace dashpot::compiler {
-namespace {
-
-// Leaves an effect to what lies on a path from tool to ground.
-Network along(const std::vector<bool>& passable, Network network) {
-  const std::vector<bool> on_path = on_path_between_ends(network, passable);
-  for (std::size_t i = 0; i < on_path.size(); ++i) network.elements[i].has_effect = on_path[i];
-  return network;
-}
-
-}  // namespace
 
 Network with_stuck_slips(Network network) {
   DisjointSets joined(network.nodes.size());  // by the least, so that tool and ground stay what they are

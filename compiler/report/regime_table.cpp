@@ -124,8 +124,8 @@ std::string merits_table(const SlipDecomposition& slips, const Network& network)
   std::string html = fmt::format(
       "<h3>Slip rules in test motions of the whole network</h3>\n<p>Each slip rule for all parts that can have it, in "
       "motions that make the slips yield: sines at both ends of the band and a drag with reversals; of those within "
-      "{} % the one with "
-      "the largest damping of the brake is taken.</p>\n{}<div class=\"wide\"><table class=\"candidates\"><thead><tr>"
+      "{} % the one with the largest damping of the brake is taken.</p>\n{}"
+      "<div class=\"wide\"><table class=\"candidates\"><thead><tr>"
       "<th class=\"word\">slip rule</th><th>peak error [%]</th><th>rms error [%]</th><th>mean brake [{}]</th>"
       "<th>minimum damping [{}]</th><th>certified</th><th>motor noise [{}]</th></tr></thead><tbody>\n",
       number_text(100 * slips.limit), worst_run(slips), units.damping, units.damping, units.force);

@@ -48,8 +48,7 @@ std::string tunable_law_html(const Compilation& c) {
   std::string html =
       "<p><code>set()</code> changes the parameters and recomputes the constants from them. Called right after a "
       "sample, it injects no energy if the command is then taken from <code>output()</code> of that sample. "
-      "Everything else on "
-      "this page is for the parameters' defaults.</p>\n";
+      "Everything else on this page is for the parameters' defaults.</p>\n";
   html += parameters_table(tables, c.network);
   html += "<p>The brake's <i>b</i> after <code>set()</code>: " + escaped(tables.brake.text) + ".";
   if (!tables.mesh_elements.empty())

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "fit/table_shape.hpp"
+#include "source/utf8.hpp"
 
 namespace dashpot::compiler::fitting {
 namespace {
 
 constexpr std::size_t piece = std::size_t{1} << 20;  // [bytes] that are read together
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 }  // namespace
 

@@ -14,8 +14,6 @@ namespace {
 
 using axes::Pair;
 
-constexpr double left = 62, top = 12, below = 48, right_margin = 12;
-constexpr double widest = 366, tallest = 330;  // of what is framed
 constexpr double shades = 20;
 constexpr int cells_of_lines = 96;  // a side, where a curve is looked for
 
@@ -41,6 +39,9 @@ class MapDrawing {
   }
 
  private:
+  static constexpr double left = 62, top = 12, below = 48, right_margin = 12;
+  static constexpr double widest = 366, tallest = 330;  // of what is framed
+
   double x_at(double x) const { return left + scale_ * (x - map_.shown[0].low); }
   double y_at(double y) const { return bottom_ - scale_ * (y - map_.shown[1].low); }
   static double shade(double share) { return std::round(std::clamp(share, 0.0, 1.0) * shades) / shades; }

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "source/diagnostic.hpp"
+#include "source/utf8.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::size_t largest_file = 16u << 20;  // [bytes]
 
 std::vector<std::size_t> find_line_starts(std::string_view text) {

@@ -6,6 +6,9 @@
 
 namespace dashpot::compiler {
 
+// What some editors begin a text with; it is not part of it.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 // The length in bytes of the well-formed code point that `text` starts with (RFC 3629: no overlong forms, no
 // surrogates, nothing above U+10FFFF); 0 where it starts with none, an empty text included.
 std::size_t code_point_length(std::string_view text);

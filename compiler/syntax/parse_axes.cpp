@@ -18,7 +18,7 @@ using Kind = JsonValue::Kind;
 
 const std::vector<std::string> keys_of_network_of_axes = {"dashpot", "axes",       "name",  "title",
                                                           "source",  "parameters", "ports", "field"};
-const std::vector<std::string> keys_of_port = {"name", "map", "network", "elements", "contact", "static"};
+const std::vector<std::string> keys_of_axes_port = {"name", "map", "network", "elements", "contact", "static"};
 const std::vector<std::string> keys_of_device_of_axes = {
     "dashpot_device", "axes",     "name",   "source", "motion",    "kinematics", "loop",
     "encoders",       "velocity", "motors", "brakes", "mechanics", "assumed"};
@@ -29,7 +29,7 @@ std::optional<PortDecl> parse_port(const JsonValue& value, const ObjectReader& f
     return std::nullopt;
   }
   ObjectReader reader(value, "a port", diagnostics);
-  reader.refuse_other_keys(keys_of_port);
+  reader.refuse_other_keys(keys_of_axes_port);
   const JsonMember* name = reader.require("name");
   const JsonMember* map = reader.require("map");
   if (name == nullptr || map == nullptr) return std::nullopt;

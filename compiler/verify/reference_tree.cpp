@@ -8,7 +8,7 @@
 namespace dashpot::compiler {
 namespace {
 
-using Kind = ReferencePart::Kind;
+using ReferenceKind = ReferencePart::Kind;
 
 // The elements of a linear subtree between a tool and a ground of their own.
 class Chain {
@@ -44,7 +44,7 @@ class Chain {
 
 // Children of one node, sorted into what is linear, what is slip and what is neither.
 struct Gathered {
-  Kind kind;
+  ReferenceKind kind;
   std::vector<Tree> linear, slips;
   std::optional<Reference> yield_force;
   std::vector<ReferencePart> others;
@@ -52,10 +52,10 @@ struct Gathered {
   void take(ReferencePart part) {
     if (part.kind == kind) {
       for (ReferencePart& child : part.children) take(std::move(child));
-    } else if (part.kind == Kind::block) {
+    } else if (part.kind == ReferenceKind::block) {
       linear.push_back(std::move(part.elements));
-    } else if (part.kind == Kind::slip) {
-      const bool is_series = kind == Kind::series;
+    } else if (part.kind == ReferenceKind::slip) {
+      const bool is_series = kind == ReferenceKind::series;
       slips.push_back(std::move(part.elements));
       yield_force = !yield_force ? part.yield_force
                     : is_series  ? std::min(*yield_force, part.yield_force)
@@ -67,8 +67,8 @@ struct Gathered {
 
   ReferencePart part() {
     ReferencePart whole{kind, {}, {}, 0, std::move(others)};
-    if (!linear.empty()) whole.children.push_back({Kind::block, together(std::move(linear)), {}, 0, {}});
-    if (yield_force) whole.children.push_back({Kind::slip, together(std::move(slips)), {}, *yield_force, {}});
+    if (!linear.empty()) whole.children.push_back({ReferenceKind::block, together(std::move(linear)), {}, 0, {}});
+    if (yield_force) whole.children.push_back({ReferenceKind::slip, together(std::move(slips)), {}, *yield_force, {}});
     if (whole.children.size() != 1) return whole;
     return ReferencePart(std::move(whole.children.front()));
   }
@@ -76,26 +76,26 @@ struct Gathered {
  private:
   Tree together(std::vector<Tree> trees) const {
     if (trees.size() == 1) return std::move(trees.front());
-    return {kind == Kind::series ? Tree::Kind::series : Tree::Kind::parallel, 0, std::move(trees)};
+    return {kind == ReferenceKind::series ? Tree::Kind::series : Tree::Kind::parallel, 0, std::move(trees)};
   }
 };
 
 ReferencePart part_of(const Tree& tree, const Network& network) {
   if (tree.kind == Tree::Kind::leaf) {
     const Law& law = network.elements[tree.element].law;
-    return {is_slip(law) ? Kind::slip : Kind::block, tree, {}, yield_force_of(law), {}};
+    return {is_slip(law) ? ReferenceKind::slip : ReferenceKind::block, tree, {}, yield_force_of(law), {}};
   }
-  Gathered gathered{tree.kind == Tree::Kind::series ? Kind::series : Kind::parallel, {}, {}, {}, {}};
+  Gathered gathered{tree.kind == Tree::Kind::series ? ReferenceKind::series : ReferenceKind::parallel, {}, {}, {}, {}};
   for (const Tree& child : tree.children) gathered.take(part_of(child, network));
   return gathered.part();
 }
 
 void fill_forms(ReferencePart& part, const Network& network) {
-  if (part.kind == Kind::block) part.form = reference_form(laid_out(part.elements, network));
+  if (part.kind == ReferenceKind::block) part.form = reference_form(laid_out(part.elements, network));
   for (ReferencePart& child : part.children) fill_forms(child, network);
 }
 
-bool is_of_slips(const ReferencePart& part) { return part.kind == Kind::slip; }
+bool is_of_slips(const ReferencePart& part) { return part.kind == ReferenceKind::slip; }
 
 void collect(const Tree& tree, std::vector<std::size_t>& elements) {
   if (tree.kind == Tree::Kind::leaf) elements.push_back(tree.element);
@@ -193,34 +193,34 @@ std::size_t slip_count(const ReferencePart& part) {
 // In a chain of slips that would have no damper left only that which yields first is without one.
 ReferencePart without_dampers_beside_slips(ReferencePart part) {
   const auto alone = [](const ReferencePart& child) {
-    return child.kind == Kind::parallel && without_dampers_beside_slips(child).kind == Kind::slip;
+    return child.kind == ReferenceKind::parallel && without_dampers_beside_slips(child).kind == ReferenceKind::slip;
   };
   const auto yields_sooner = [](const ReferencePart& one, const ReferencePart& other) {
     return without_dampers_beside_slips(one).yield_force < without_dampers_beside_slips(other).yield_force;
   };
   const ReferencePart* sole = nullptr;
-  if (part.kind == Kind::series && std::none_of(part.children.begin(), part.children.end(), is_of_slips))
+  if (part.kind == ReferenceKind::series && std::none_of(part.children.begin(), part.children.end(), is_of_slips))
     for (const ReferencePart& child : part.children)
       if (alone(child) && (sole == nullptr || yields_sooner(child, *sole))) sole = &child;
   const bool beside =
-      part.kind == Kind::parallel && std::any_of(part.children.begin(), part.children.end(), is_of_slips);
+      part.kind == ReferenceKind::parallel && std::any_of(part.children.begin(), part.children.end(), is_of_slips);
   for (ReferencePart& child : part.children) {
-    if (child.kind == Kind::block)
+    if (child.kind == ReferenceKind::block)
       child.form.feedthrough_damping = beside ? Reference(0) : child.form.feedthrough_damping;
-    else if (part.kind != Kind::series || &child == sole || !alone(child))
+    else if (part.kind != ReferenceKind::series || &child == sole || !alone(child))
       child = without_dampers_beside_slips(std::move(child));
   }
   std::erase_if(part.children, [](const ReferencePart& child) {
-    return child.kind == Kind::block && child.form.static_stiffness == 0 && child.form.feedthrough_damping == 0 &&
-           child.form.modes.empty();
+    return child.kind == ReferenceKind::block && child.form.static_stiffness == 0 &&
+           child.form.feedthrough_damping == 0 && child.form.modes.empty();
   });
   if (part.children.size() != 1) return part;
   return ReferencePart(std::move(part.children.front()));
 }
 
 std::optional<Reference> feedthrough_in(const ReferencePart& part, std::size_t pattern) {
-  if (part.kind == Kind::block) return part.form.feedthrough_damping;
-  if (part.kind == Kind::slip) return (pattern & 1u) != 0 ? std::optional<Reference>(0) : std::nullopt;
+  if (part.kind == ReferenceKind::block) return part.form.feedthrough_damping;
+  if (part.kind == ReferenceKind::slip) return (pattern & 1u) != 0 ? std::optional<Reference>(0) : std::nullopt;
   Reference sum = 0, inverse = 0;
   bool is_open = false, is_rigid = true, is_held = false;
   for (const ReferencePart& child : part.children) {
@@ -233,7 +233,7 @@ std::optional<Reference> feedthrough_in(const ReferencePart& part, std::size_t p
     if (b) sum += *b;
     if (b && *b > 0) inverse += 1 / *b;
   }
-  if (part.kind == Kind::parallel) return is_held ? std::nullopt : std::optional(sum);
+  if (part.kind == ReferenceKind::parallel) return is_held ? std::nullopt : std::optional(sum);
   if (is_open) return Reference(0);
   return is_rigid ? std::nullopt : std::optional(Reference(1 / inverse));
 }

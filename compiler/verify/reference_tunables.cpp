@@ -11,7 +11,7 @@
 namespace dashpot::compiler {
 namespace {
 
-using Kind = ReferencePart::Kind;
+using ReferenceKind = ReferencePart::Kind;
 
 Reference value_in_100_digits(const Element& e) { return value_of(e.law); }
 
@@ -141,9 +141,9 @@ class Blocks {
 
 void add_blocks(const ReferencePart& part, const Network& network, const Blocks& blocks,
                 std::vector<ReferenceBlock>& all, std::vector<std::vector<ReferenceSum>>& yields) {
-  if (part.kind == Kind::block)
+  if (part.kind == ReferenceKind::block)
     all.push_back(blocks.block(laid_out(part.elements, network), elements_of(part.elements)));
-  if (part.kind == Kind::slip) yields.push_back(blocks.cuts(part.elements, network));
+  if (part.kind == ReferenceKind::slip) yields.push_back(blocks.cuts(part.elements, network));
   for (const ReferencePart& child : part.children) add_blocks(child, network, blocks, all, yields);
 }
 

@@ -6,7 +6,7 @@
 namespace dashpot::compiler {
 namespace {
 
-using Kind = ReferencePart::Kind;
+using ReferenceKind = ReferencePart::Kind;
 using Values = SlipEquations::Values;
 
 bool is_empty(const ReferenceForm& f) {
@@ -15,8 +15,9 @@ bool is_empty(const ReferenceForm& f) {
 
 // All that is behind a contact as one tree.
 ReferencePart whole_of(const ReferenceTree& tree) {
-  ReferencePart whole{Kind::parallel, {}, {}, 0, tree.components};
-  if (!is_empty(tree.linear)) whole.children.insert(whole.children.begin(), {Kind::block, {}, tree.linear, 0, {}});
+  ReferencePart whole{ReferenceKind::parallel, {}, {}, 0, tree.components};
+  if (!is_empty(tree.linear))
+    whole.children.insert(whole.children.begin(), {ReferenceKind::block, {}, tree.linear, 0, {}});
   if (whole.children.size() != 1) return whole;
   return ReferencePart(std::move(whole.children.front()));
 }
@@ -35,7 +36,7 @@ bool is_pushed(const SlipNetwork& table) {
 
 // Depth first, as feedthrough_in() counts them.
 void collect_slips(const ReferencePart& part, std::vector<ElementList>& slips) {
-  if (part.kind == Kind::slip) slips.push_back(sorted(elements_of(part)));
+  if (part.kind == ReferenceKind::slip) slips.push_back(sorted(elements_of(part)));
   for (const ReferencePart& child : part.children) collect_slips(child, slips);
 }
 
@@ -49,7 +50,7 @@ SlipEquations::SlipEquations(const ReferenceTree& tree, ReferenceForm linear, co
       slips_(slips),
       facts_(facts),
       whole_(reference_constants(linear_, facts)),
-      behind_surface_{Kind::parallel, {}, {}, 0, {}} {
+      behind_surface_{ReferenceKind::parallel, {}, {}, 0, {}} {
   for (const ElementList& part : tree.networks) networks_.push_back({sorted(part), reference_network(network, part)});
   if (network.contact && !tree.components.empty()) {
     behind_surface_ = whole_of(tree);
@@ -66,7 +67,7 @@ SlipEquations::SlipEquations(const ReferenceTree& tree, ReferenceForm linear, co
 // Every part by its elements. A block without any of its own is all that reaches ground without a slip.
 ElementList SlipEquations::index(const ReferencePart& part) {
   const bool is_linear = !behind_surface_.children.empty() && &part == &behind_surface_.children.front() &&
-                         part.kind == Kind::block && !is_empty(tree_.linear);
+                         part.kind == ReferenceKind::block && !is_empty(tree_.linear);
   ElementList all;
   if (is_linear) all = effective_elements(tree_.linear_network);
   else if (part.children.empty()) all = elements_of(part);
@@ -117,17 +118,17 @@ const ReferenceNetworkMode* SlipEquations::mode(const OfPartMode& of) const {
 
 // Over one sample, with every slip giving way.
 Reference SlipEquations::stiffness(const ReferencePart& part) const {
-  if (part.kind == Kind::block) return companion(part.form, facts_);
+  if (part.kind == ReferenceKind::block) return companion(part.form, facts_);
   Reference sum = 0, compliance = 0;
   bool is_flat = part.children.empty();
   for (const ReferencePart& child : part.children) {
     const Reference g = stiffness(child);
-    is_flat = is_flat || (part.kind == Kind::series && g == 0);
+    is_flat = is_flat || (part.kind == ReferenceKind::series && g == 0);
     sum += g;
     if (g > 0) compliance += 1 / g;
   }
   if (is_flat) return 0;
-  return part.kind == Kind::series ? Reference(1 / compliance) : sum;
+  return part.kind == ReferenceKind::series ? Reference(1 / compliance) : sum;
 }
 
 std::optional<Reference> SlipEquations::value(const Coefficient& constant, std::size_t place) const {
@@ -146,7 +147,7 @@ std::optional<Reference> SlipEquations::value(const Coefficient& constant, std::
       return std::holds_alternative<OfRow>(subject) ? row(std::get<OfRow>(subject)) : std::nullopt;
     case ConstantRole::yield:
       if (const auto* of = std::get_if<OfElements>(&subject))
-        if (const ReferencePart* slip = part(of->elements); slip != nullptr && slip->kind == Kind::slip)
+        if (const ReferencePart* slip = part(of->elements); slip != nullptr && slip->kind == ReferenceKind::slip)
           return slip->yield_force;
       return std::nullopt;
     case ConstantRole::mode_weight:
@@ -205,7 +206,7 @@ std::optional<Reference> SlipEquations::of_mode(ConstantRole role, const Subject
 
 std::optional<Reference> SlipEquations::spring(const Subject& subject) const {
   if (const auto* of = std::get_if<OfElements>(&subject))
-    if (const ReferencePart* block = part(of->elements); block != nullptr && block->kind == Kind::block)
+    if (const ReferencePart* block = part(of->elements); block != nullptr && block->kind == ReferenceKind::block)
       return block->form.static_stiffness;
   if (const auto* of = std::get_if<OfTie>(&subject))
     if (const ReferenceNetwork* form = network(of->part)) {

@@ -5,7 +5,7 @@
 namespace dashpot::compiler {
 namespace {
 
-using Kind = ReferencePart::Kind;
+using ReferenceKind = ReferencePart::Kind;
 
 // p = g δ + Σ forces: what a part holds, as a function of its elongation; a slip is held at a given elongation.
 struct Branch {
@@ -19,10 +19,10 @@ void lay(const ReferencePart& part, std::size_t from, std::size_t to, std::size_
   if (part.children.empty()) return branches.push_back({&part, from, to});
   std::size_t here = from;
   for (std::size_t i = 0; i < part.children.size(); ++i) {
-    const bool is_last = part.kind == Kind::parallel || i + 1 == part.children.size();
+    const bool is_last = part.kind == ReferenceKind::parallel || i + 1 == part.children.size();
     const std::size_t next = is_last ? to : nodes++;
     lay(part.children[i], here, next, nodes, branches);
-    if (part.kind == Kind::series) here = next;
+    if (part.kind == ReferenceKind::series) here = next;
   }
 }
 
@@ -47,7 +47,7 @@ class Step {
     lay(component, tool_, ground_, nodes_, branches_);
     std::size_t block = 0;
     for (Branch& branch : branches_)
-      if (branch.part->kind == Kind::block) branch.block = block++;
+      if (branch.part->kind == ReferenceKind::block) branch.block = block++;
     inputs_ = block + 2;
     balance();
     solve(rows_, unknowns());
@@ -65,7 +65,7 @@ class Step {
     Reference force = 0;
     for (const Branch& branch : branches_) {
       if (branch.from != tool_) continue;
-      if (branch.part->kind == Kind::slip) force += slip_force(input);
+      if (branch.part->kind == ReferenceKind::slip) force += slip_force(input);
       else force += stiffness_[branch.block] * elongation(branch, input) + (input == branch.block + 1 ? 1 : 0);
     }
     return force;
@@ -83,7 +83,8 @@ class Step {
 
   void balance() {
     rows_.assign(unknowns(), std::vector<Reference>(unknowns() + inputs_, 0));
-    for (const Branch& branch : branches_) branch.part->kind == Kind::slip ? add_slip(branch) : add_block(branch);
+    for (const Branch& branch : branches_)
+      branch.part->kind == ReferenceKind::slip ? add_slip(branch) : add_block(branch);
   }
 
   void add_block(const Branch& branch) {
@@ -121,7 +122,7 @@ class Step {
 };
 
 void collect(const ReferencePart& part, std::vector<const ReferencePart*>& blocks) {
-  if (part.kind == Kind::block) blocks.push_back(&part);
+  if (part.kind == ReferenceKind::block) blocks.push_back(&part);
   for (const ReferencePart& child : part.children) collect(child, blocks);
 }
 
@@ -146,7 +147,7 @@ SlipRows slip_rows(const ReferencePart& component, const std::vector<Reference>&
                 row([&](std::size_t input) { return step.tool_force(input); }),
                 {}};
   for (const Branch& branch : step.branches())
-    if (branch.part->kind == Kind::block)
+    if (branch.part->kind == ReferenceKind::block)
       rows.elongation.push_back(row([&](std::size_t input) { return step.elongation(branch, input); }));
   return rows;
 }

@@ -25,12 +25,6 @@ constexpr double caption_line = 17;
 constexpr Box margin{72, 26, 20, 46};  // of a panel, for title, ticks and labels
 constexpr double marker_radius = 2.8;
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
-  return safe;
-}
-
 std::string text(Point at, const std::string& words, const char* attributes = "") {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", at.x, at.y, attributes, escaped(words));
 }
@@ -269,6 +263,12 @@ std::vector<Box> places(const Figure& figure, double heading, double& end) {
 }
 
 }  // namespace
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
+  return safe;
+}
 
 std::string to_svg(const Figure& figure) {
   const std::vector<Entry> entries = legend_entries(figure);

@@ -57,4 +57,7 @@ struct Figure {
 // The whole file, standing alone: no fonts, styles or scripts from elsewhere. 180 mm wide in print.
 std::string to_svg(const Figure& figure);
 
+// Text as SVG and HTML have it between tags.
+std::string escaped(const std::string& text);
+
 }  // namespace dashpot::paper

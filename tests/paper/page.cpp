@@ -38,12 +38,6 @@ a simulated device: the same plant for the single motor and for the dual channel
 the paper comes out is decided by the program that writes this page, from the numbers that it draws. What begins with “Beyond the paper” is not in it: one axis that stiffens, and two axes.</p>
 )";
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
-  return safe;
-}
-
 std::string row(const std::vector<std::string>& cells, const char* tag) {
   std::string html = "<tr>";
   for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));

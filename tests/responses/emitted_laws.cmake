@@ -1,7 +1,8 @@
 # Headers written by the compiler that is being built, as sources of a test.
 
 # emit_laws(VARIANT NETWORKS files… CHOICES options…): every network compiled with the same choices, in a folder and a
-# namespace of the variant's name. Adds to emitted_law_sources and emitted_law_variants of the caller.
+# namespace of the variant's name. Adds to emitted_law_sources, emitted_law_headers and emitted_law_variants of the
+# caller.
 function(emit_laws variant)
   cmake_parse_arguments(PARSE_ARGV 1 laws "" "" "NETWORKS;CHOICES")
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/laws/${variant})
@@ -23,9 +24,8 @@ function(emit_laws variant)
     DEPENDS dashpot::dashpot ${laws_NETWORKS}
     COMMENT "Emitting ${variant}"
     VERBATIM)
-  set_source_files_properties(${folder}/${variant}.cpp PROPERTIES
-    OBJECT_DEPENDS "${headers}" INCLUDE_DIRECTORIES ${CMAKE_CURRENT_BINARY_DIR}/laws)
   set(emitted_law_sources ${emitted_law_sources} ${folder}/${variant}.cpp PARENT_SCOPE)
+  set(emitted_law_headers ${emitted_law_headers} ${headers} PARENT_SCOPE)
   set(emitted_law_variants ${emitted_law_variants} ${variant} PARENT_SCOPE)
 endfunction()
 

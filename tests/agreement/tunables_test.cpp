@@ -10,7 +10,7 @@
 #include "support/shrink.hpp"
 #include "support/tunable_run.hpp"
 
-namespace dashpot::testing {
+namespace dashpot::testing::tunables_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -136,4 +136,4 @@ TEST(Agreement, OfSimulatedAndEmittedSet) {
   }
 }
 
-}  // namespace dashpot::testing
+}  // namespace dashpot::testing::tunables_test

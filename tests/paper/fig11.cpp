@@ -85,7 +85,7 @@ Largest mean_of_largest(const Trace& trace, double duration, Value value) {
   return mean;
 }
 
-Fig11::Part part_of(const Experiment& experiment, const Realisation& realisation, const Style& style) {
+Fig11::Part part_of_fig11(const Experiment& experiment, const Realisation& realisation, const Style& style) {
   Fig11::Part part{realisation.name, style, run(experiment, realisation), {}, 0, 0, 0, 0, realisation.law.maker, 0};
   part.truth = truth_of(part.trace);
   const double quarter = 0.25 / chosen("fig11.frequency");
@@ -197,7 +197,7 @@ Fig11 measure_fig11() {
   const Style styles[] = {single_motor, dual_channel, bound, third, fourth};
   Fig11 fig11;
   for (std::size_t i = 0; i < experiment.realisations.size(); ++i)
-    fig11.parts.push_back(part_of(experiment, experiment.realisations[i], styles[i]));
+    fig11.parts.push_back(part_of_fig11(experiment, experiment.realisations[i], styles[i]));
   for (const std::size_t k : reversals_of(fig11.parts[0].trace))
     fig11.reversals.push_back(fig11.parts[0].trace[k].time);
   return fig11;

@@ -63,7 +63,7 @@ std::size_t reversal_after(const std::vector<double>& velocity, std::size_t firs
   return k;
 }
 
-Fig12::Part part_of(const Experiment& experiment, const Realisation& realisation, const Style& style) {
+Fig12::Part part_of_fig12(const Experiment& experiment, const Realisation& realisation, const Style& style) {
   const double period = experiment.plant.loop.sample_period;
   Fig12::Part part{realisation.name, style, run(experiment, realisation), {}, {}, {}, 0, 0, 0, 0, {}, {}, 0};
   part.velocity = offline_velocity(part.trace, period);
@@ -166,7 +166,7 @@ Fig12 measure_fig12() {
   const Style styles[] = {single_motor, dual_channel, third, fourth};
   Fig12 fig12;
   for (std::size_t i = 0; i < experiment.realisations.size(); ++i)
-    fig12.parts.push_back(part_of(experiment, experiment.realisations[i], styles[i]));
+    fig12.parts.push_back(part_of_fig12(experiment, experiment.realisations[i], styles[i]));
   return fig12;
 }
 

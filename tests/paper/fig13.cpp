@@ -47,7 +47,7 @@ std::size_t where(const Trace& trace, std::size_t first, double velocity) {
   return k;
 }
 
-Fig13::Part part_of(const Experiment& experiment, const Realisation& realisation, const Style& style) {
+Fig13::Part part_of_fig13(const Experiment& experiment, const Realisation& realisation, const Style& style) {
   const double arm = experiment.plant.arm_radius, period = experiment.plant.loop.sample_period;
   Fig13::Part part{realisation.name, style, run(experiment, realisation), 0, 0, 0, 0, 0};
   const auto release = static_cast<std::size_t>(std::lround(chosen("fig13.drag") / period));
@@ -84,7 +84,7 @@ Fig13::Part released_as_printed(const device_description& plant, double hand, co
   }
   Experiment drag = drag_and_release(plant, hand, speed);
   drag.duration = chosen("fig13.drag") + chosen("fig13.watched_in_sweep");
-  return part_of(drag, realisation, plain);
+  return part_of_fig13(drag, realisation, plain);
 }
 
 Fig13::Variation variation_of(double inertia, double hand, double tissue) {
@@ -267,11 +267,12 @@ Fig13 measure_fig13(bool thinned) {
   const Experiment experiment = drag_and_release(plant), ideally = drag_and_release(ideal_rig());
   Fig13 fig13;
   fig13.release = chosen("fig13.drag");
-  fig13.parts = {part_of(ideally, {"ideal", law_of<laws::maxwell_ideal>(), true_velocity(), 0}, ideal),
-                 part_of(experiment, {"single motor", law_of<laws::maxwell_single>(), plant.velocity, 0}, single_motor),
-                 part_of(experiment, {"dual channel", law_of<laws::maxwell_dual>(), plant.velocity, 0}, dual_channel),
-                 part_of(experiment, {by_papers_rule, law_of<laws::maxwell_by_rule>(), plant.velocity, 0}, third),
-                 part_of(experiment, {by_faithful_choice, law_of<laws::maxwell_own>(), plant.velocity, 0}, fourth)};
+  fig13.parts = {
+      part_of_fig13(ideally, {"ideal", law_of<laws::maxwell_ideal>(), true_velocity(), 0}, ideal),
+      part_of_fig13(experiment, {"single motor", law_of<laws::maxwell_single>(), plant.velocity, 0}, single_motor),
+      part_of_fig13(experiment, {"dual channel", law_of<laws::maxwell_dual>(), plant.velocity, 0}, dual_channel),
+      part_of_fig13(experiment, {by_papers_rule, law_of<laws::maxwell_by_rule>(), plant.velocity, 0}, third),
+      part_of_fig13(experiment, {by_faithful_choice, law_of<laws::maxwell_own>(), plant.velocity, 0}, fourth)};
   for (Fig13::Part& part : fig13.parts) part.distance = distance(part.trace, fig13.parts[0].trace, fig13.release);
   fig13.variations = all_variations(thinned);
   return fig13;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "chosen.hpp"
@@ -14,7 +15,7 @@
 namespace dashpot::paper {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double usual_delay = 5e-3;  // of Fig. 6, as printed [s]
 constexpr double slow = 0.5;          // of Fig. 6, as printed [Hz]
 

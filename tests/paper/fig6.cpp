@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <laws.hpp>
 
@@ -15,11 +16,11 @@
 namespace dashpot::paper {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double K = 50;                  // as printed [N/m]
 constexpr double B = 5;                   // as printed [N·s/m]
-constexpr double period = 1e-3;           // as printed [s]
-constexpr unsigned lateness = 5;          // of the velocity, as printed [samples]
+constexpr double printed_period = 1e-3;   // as printed [s]
+constexpr unsigned late_samples = 5;      // of the velocity, as printed [samples]
 constexpr double angular = 2 * pi * 0.5;  // 0.5 Hz, as printed [rad/s]
 constexpr std::size_t reversal = 1000;    // the sample at 1 s, half of the printed period
 constexpr std::size_t stroke = 500;       // a quarter of the printed period: within it the energy turns again [samples]
@@ -74,8 +75,8 @@ double minimum_damping(const Fig6::Candidate& candidate) {
   const SampledMaxwell loop{K,
                             B,
                             candidate.realisation.law()->output(0, 0).damping,
-                            period,
-                            lateness,
+                            printed_period,
+                            late_samples,
                             candidate.scheme == "exact",
                             candidate.state_input == "velocity"};
   return least_extra_damping(loop);
@@ -83,26 +84,26 @@ double minimum_damping(const Fig6::Candidate& candidate) {
 
 Fig6::Candidate candidate_of(const Kind& kind, const Experiment& experiment, const Fig6& truth) {
   Fig6::Candidate candidate{
-      {kind.name, kind.law, true_velocity(), lateness}, kind.scheme, kind.state_input, {}, {}, {}, 0, 0, 0};
+      {kind.name, kind.law, true_velocity(), late_samples}, kind.scheme, kind.state_input, {}, {}, {}, 0, 0, 0};
   candidate.trace = run(experiment, candidate.realisation);
   const std::vector<double> force = forces(candidate.trace);
-  candidate.energy = energy_of(force, truth.velocity, period);
+  candidate.energy = energy_of(force, truth.velocity, printed_period);
   candidate.relative_error = relative_error(force, truth.force);
-  candidate.readings = readings_of(force, truth.velocity, period, reversal, stroke);
+  candidate.readings = readings_of(force, truth.velocity, printed_period, reversal, stroke);
   candidate.returned = returned_energy(candidate.energy, reversal, stroke);
   candidate.minimum_damping = minimum_damping(candidate);
   return candidate;
 }
 
 void make_ideal(Fig6& fig6) {
-  for (int k = 0; k <= std::lround(chosen("fig6.duration") / period); ++k) {
-    const double t = k * period;
+  for (int k = 0; k <= std::lround(chosen("fig6.duration") / printed_period); ++k) {
+    const double t = k * printed_period;
     fig6.time.push_back(t);
     fig6.force.push_back(fig6_force(t));
     fig6.velocity.push_back(velocity(t));
   }
-  fig6.energy = energy_of(fig6.force, fig6.velocity, period);
-  fig6.readings = readings_of(fig6.force, fig6.velocity, period, reversal, stroke);
+  fig6.energy = energy_of(fig6.force, fig6.velocity, printed_period);
+  fig6.readings = readings_of(fig6.force, fig6.velocity, printed_period, reversal, stroke);
   fig6.returned = returned_energy(fig6.energy, reversal, stroke);
   // By bisection in the closed form: from the reversal until the force changes its sign as well.
   double low = 1, high = 1.5;
@@ -134,11 +135,12 @@ std::vector<Curve> three(const Fig6& fig6, Values values) {
 }
 
 Figure figure_of(const Fig6& fig6) {
-  const auto sums = [&](const std::vector<double>& force) { return energy_of(force, fig6.velocity, period); };
+  const auto sums = [&](const std::vector<double>& force) { return energy_of(force, fig6.velocity, printed_period); };
   const auto force = three(fig6, [](const std::vector<double>& f) { return f; });
   const auto errors = three(fig6, [&](const std::vector<double>& f) { return beyond(f, fig6.force); });
-  const auto increments = three(
-      fig6, [&](const std::vector<double>& f) { return scaled(increments_of(f, fig6.velocity, period), 0, 1e6); });
+  const auto increments = three(fig6, [&](const std::vector<double>& f) {
+    return scaled(increments_of(f, fig6.velocity, printed_period), 0, 1e6);
+  });
   const auto since = three(fig6, [&](const std::vector<double>& f) { return scaled(sums(f), sums(f)[reversal], 1e3); });
   const auto from_start = three(fig6, [&](const std::vector<double>& f) { return scaled(sums(f), 0, 1); });
   Curve needed{"(14): the damping f/u̇", third, {}, {}, Maker::closed_form};
@@ -238,7 +240,7 @@ double fig6_force(double t) {
   return scale * (rate * std::sin(angular * t) - angular * std::cos(angular * t) + angular * std::exp(-rate * t));
 }
 
-Experiment fig6_experiment() { return {ideal_plant(period), sine_of_velocity(), chosen("fig6.duration"), {}}; }
+Experiment fig6_experiment() { return {ideal_plant(printed_period), sine_of_velocity(), chosen("fig6.duration"), {}}; }
 
 Fig6 measure_fig6() {
   Fig6 fig6;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "chosen.hpp"
 #include "claims.hpp"
@@ -12,7 +13,7 @@
 namespace dashpot::paper {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr std::size_t average = 100;      // centred samples, as printed
 constexpr double printed_quantum = 0.95;  // as printed [rad/s]
 constexpr double printed_delay = 5e-3;    // “approximately”, as printed [s]

@@ -64,7 +64,7 @@ Fig8::Release release_within(const Trace& trace, double from, double to) {
   return release;
 }
 
-Fig8::Part part_of(const Experiment& experiment, const Realisation& realisation, const Style& style) {
+Fig8::Part part_of_fig8(const Experiment& experiment, const Realisation& realisation, const Style& style) {
   Fig8::Part part{realisation.name, style, run(experiment, realisation), {}, {}, realisation.law.maker};
   part.withdrawn = release_within(part.trace, instant(withdraw), instant(again));
   part.let_go = release_within(part.trace, instant(let_go), instant(end));
@@ -157,12 +157,13 @@ Fig8 measure_fig8() {
   const Style styles[] = {single_motor, dual_channel, single_motor, dual_channel};
   Fig8 fig8;
   for (std::size_t i = 0; i < experiment.realisations.size(); ++i)
-    fig8.parts.push_back(part_of(experiment, experiment.realisations[i], styles[i]));
-  fig8.parts.push_back(part_of(prompt, experiment.realisations.back(), plain));
+    fig8.parts.push_back(part_of_fig8(experiment, experiment.realisations[i], styles[i]));
+  fig8.parts.push_back(part_of_fig8(prompt, experiment.realisations.back(), plain));
   fig8.parts.back().name = "contact, dual channel, coil without lag";
   fig8.parts.push_back(
-      part_of(ideally, {"ideal wall (9)", law_of<WhileInside<laws::kelvin_ideal>>(), true_velocity(), 0}, ideal));
-  fig8.parts.push_back(part_of(ideally, {"ideal contact", law_of<laws::contact_single>(), true_velocity(), 0}, ideal));
+      part_of_fig8(ideally, {"ideal wall (9)", law_of<WhileInside<laws::kelvin_ideal>>(), true_velocity(), 0}, ideal));
+  fig8.parts.push_back(
+      part_of_fig8(ideally, {"ideal contact", law_of<laws::contact_single>(), true_velocity(), 0}, ideal));
   const Trace &single = fig8.parts[0].trace, &dual = fig8.parts[1].trace;
   for (std::size_t k = 0; k < single.size(); ++k)
     if (single[k].time >= instant(let_go))

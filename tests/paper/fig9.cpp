@@ -39,7 +39,7 @@ std::size_t sample_at(const Trace& trace, double time) {
   return k;
 }
 
-Fig9::Part part_of(const Experiment& experiment, const Realisation& realisation, const Style& style) {
+Fig9::Part part_of_fig9(const Experiment& experiment, const Realisation& realisation, const Style& style) {
   Fig9::Part part{realisation.name, style, run(experiment, realisation), 0, 0, 0, 0, 0, realisation.law.maker};
   const double stop = instant_at(part.trace, chosen("fig9.obstacle") * (1 - 1e-6));
   const Sample& before = part.trace[sample_at(part.trace, stop - 2 * experiment.plant.loop.sample_period)];
@@ -126,10 +126,11 @@ Fig9 measure_fig9() {
   const device_description& plant = rig().description;
   const Experiment experiment = into_the_obstacle(plant), ideally = into_the_obstacle(ideal_rig());
   Fig9 fig9;
-  fig9.parts = {
-      part_of(ideally, {"ideal", law_of<WhileInside<laws::solid_ideal>>(), true_velocity(), 0}, ideal),
-      part_of(experiment, {"single motor", law_of<WhileInside<laws::solid_single>>(), plant.velocity, 0}, single_motor),
-      part_of(experiment, {"dual channel", law_of<WhileInside<laws::solid_dual>>(), plant.velocity, 0}, dual_channel)};
+  fig9.parts = {part_of_fig9(ideally, {"ideal", law_of<WhileInside<laws::solid_ideal>>(), true_velocity(), 0}, ideal),
+                part_of_fig9(experiment, {"single motor", law_of<WhileInside<laws::solid_single>>(), plant.velocity, 0},
+                             single_motor),
+                part_of_fig9(experiment, {"dual channel", law_of<WhileInside<laws::solid_dual>>(), plant.velocity, 0},
+                             dual_channel)};
   const Trace &truth = fig9.parts[0].trace, &single = fig9.parts[1].trace, &dual = fig9.parts[2].trace;
   fig9.touch = instant_at(dual, 0);
   fig9.stop = instant_at(dual, chosen("fig9.obstacle") * (1 - 1e-6));

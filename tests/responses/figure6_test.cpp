@@ -5,7 +5,7 @@
 
 #include "emitted_laws.hpp"
 
-namespace dashpot::responses {
+namespace dashpot::responses::figure6_test {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -60,4 +60,4 @@ TEST(Figure6, HasTheStatedErrorsWithTheExactScheme) {
 }
 
 }  // namespace
-}  // namespace dashpot::responses
+}  // namespace dashpot::responses::figure6_test

@@ -8,7 +8,7 @@
 #include "motion.hpp"
 #include "support/random.hpp"
 
-namespace dashpot::responses {
+namespace dashpot::responses::printed_laws_test {
 namespace {
 
 constexpr double period = 1e-3;  // Δt [s]
@@ -129,4 +129,4 @@ TEST(PrintedLaws, DifferForTwoKelvinElementsAndAnEstimate) {
 }
 
 }  // namespace
-}  // namespace dashpot::responses
+}  // namespace dashpot::responses::printed_laws_test

@@ -6,7 +6,7 @@
 #include "closed_forms.hpp"
 #include "emit/emission.hpp"
 
-namespace dashpot::responses {
+namespace dashpot::responses::slow_modes_test {
 namespace {
 
 constexpr float stiffness = 16;              // [N/m]
@@ -81,4 +81,4 @@ TEST(SlowModes, KeepToTheStatedBound) {
 }
 
 }  // namespace
-}  // namespace dashpot::responses
+}  // namespace dashpot::responses::slow_modes_test

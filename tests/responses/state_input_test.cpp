@@ -6,7 +6,7 @@
 
 #include "closed_forms.hpp"
 
-namespace dashpot::responses {
+namespace dashpot::responses::state_input_test {
 namespace {
 
 constexpr double angular = 3.14159265358979323846;  // [rad/s]
@@ -75,4 +75,4 @@ TEST(StateInput, PositionIsBestForAThird) {
 }
 
 }  // namespace
-}  // namespace dashpot::responses
+}  // namespace dashpot::responses::state_input_test

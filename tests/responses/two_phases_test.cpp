@@ -6,7 +6,7 @@
 #include "emitted_laws.hpp"
 #include "motion.hpp"
 
-namespace dashpot::responses {
+namespace dashpot::responses::two_phases_test {
 namespace {
 
 constexpr double rest = 0;
@@ -87,4 +87,4 @@ TEST(TwoPhases, AStepDropsTheSampleThatWaits) {
 }
 
 }  // namespace
-}  // namespace dashpot::responses
+}  // namespace dashpot::responses::two_phases_test

@@ -9,7 +9,7 @@
 
 #include DASHPOT_BOARD_MODEL_HEADER
 
-namespace dashpot::board {
+namespace dashpot::board::firmware_model_test {
 namespace {
 
 using model = DASHPOT_BOARD_MODEL_CLASS;
@@ -43,4 +43,4 @@ TEST(Firmware, OneStepStaysWithinItsBudgetOfInstructions) {
 }
 
 }  // namespace
-}  // namespace dashpot::board
+}  // namespace dashpot::board::firmware_model_test

@@ -10,7 +10,7 @@
 #include "in_process_board.hpp"
 #include "stream_pair.hpp"
 
-namespace dashpot {
+namespace dashpot::board_faults_test {
 namespace {
 
 using namespace board;
@@ -147,4 +147,4 @@ TEST(BoardFaults, SilenceOfTheBoardIsStale) {
 }
 
 }  // namespace
-}  // namespace dashpot
+}  // namespace dashpot::board_faults_test

@@ -11,7 +11,7 @@
 
 #include "stepped_session.hpp"
 
-namespace dashpot {
+namespace dashpot::uptime_test {
 namespace {
 
 using namespace board;
@@ -144,4 +144,4 @@ TEST(Uptime, OfTheStopsIsSeenByNobody) {
 }
 
 }  // namespace
-}  // namespace dashpot
+}  // namespace dashpot::uptime_test

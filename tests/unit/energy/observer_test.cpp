@@ -8,7 +8,7 @@
 #include <dashpot/energy/hold_observer.hpp>
 #include <dashpot/energy/power_observer.hpp>
 
-namespace dashpot {
+namespace dashpot::observer_test {
 namespace {
 
 constexpr double stiffness = 800, period = 0.001;
@@ -257,4 +257,4 @@ TEST(HoldObserver, ReckonsWithWhatTheDeviceApplied) {
 }
 
 }  // namespace
-}  // namespace dashpot
+}  // namespace dashpot::observer_test

@@ -9,7 +9,7 @@
 
 #include "motion.hpp"
 
-namespace dashpot {
+namespace dashpot::delay_test {
 namespace {
 
 constexpr double sample_period = 1e-3;  // [s]
@@ -133,4 +133,4 @@ TEST(SensorDelay, IsItsTimeConstant) {
 }
 
 }  // namespace
-}  // namespace dashpot
+}  // namespace dashpot::delay_test

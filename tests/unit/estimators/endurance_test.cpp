@@ -12,7 +12,7 @@
 
 #include "motion.hpp"
 
-namespace dashpot {
+namespace dashpot::endurance_test {
 namespace {
 
 constexpr double sample_period = 1e-3;            // [s]
@@ -160,4 +160,4 @@ TEST_P(Endurance, IsAtRestAfterReset) {
 INSTANTIATE_TEST_SUITE_P(All, Endurance, testing::ValuesIn(all_of_them()), name_of_instance);
 
 }  // namespace
-}  // namespace dashpot
+}  // namespace dashpot::endurance_test

@@ -11,7 +11,7 @@
 
 #include <dashpot/estimators/foaw.hpp>
 
-namespace dashpot {
+namespace dashpot::foaw_test {
 namespace {
 
 constexpr double sample_period = 1e-3;  // [s]
@@ -179,4 +179,4 @@ TEST(FoawWindow, IsTheSameInSinglePrecision) {
 }
 
 }  // namespace
-}  // namespace dashpot
+}  // namespace dashpot::foaw_test

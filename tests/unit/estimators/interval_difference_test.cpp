@@ -10,7 +10,7 @@
 #include <dashpot/estimators/backward_difference.hpp>
 #include <dashpot/estimators/interval_difference.hpp>
 
-namespace dashpot {
+namespace dashpot::interval_difference_test {
 namespace {
 
 constexpr double sample_period = 1e-3;          // [s]
@@ -80,4 +80,4 @@ TEST(IntervalDifference, IsAtRestWhereItIsReset) {
 }
 
 }  // namespace
-}  // namespace dashpot
+}  // namespace dashpot::interval_difference_test

@@ -6,7 +6,7 @@
 
 #include "motion.hpp"
 
-namespace dashpot {
+namespace dashpot::inverse_time_test {
 namespace {
 
 constexpr double step = 1e-4;            // [m]
@@ -92,4 +92,4 @@ TEST(InverseTime, IsExactInSteadyMotion) {
 }
 
 }  // namespace
-}  // namespace dashpot
+}  // namespace dashpot::inverse_time_test

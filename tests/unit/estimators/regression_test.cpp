@@ -11,7 +11,7 @@
 
 #include "motion.hpp"
 
-namespace dashpot {
+namespace dashpot::regression_test {
 namespace {
 
 struct figure {
@@ -119,4 +119,4 @@ INSTANTIATE_TEST_SUITE_P(DeviceSpecification, RegressionDelay, testing::ValuesIn
                          name_of_figure);
 
 }  // namespace
-}  // namespace dashpot
+}  // namespace dashpot::regression_test

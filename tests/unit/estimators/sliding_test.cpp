@@ -8,7 +8,7 @@
 #include <dashpot/estimators/super_twisting.hpp>
 #include <dashpot/estimators/tracking_differentiator.hpp>
 
-namespace dashpot {
+namespace dashpot::sliding_test {
 namespace {
 
 constexpr double sample_period = 1e-3;  // [s]
@@ -125,4 +125,4 @@ TEST(TrackingDifferentiator, NeverAcceleratesBeyondItsBound) {
 }
 
 }  // namespace
-}  // namespace dashpot
+}  // namespace dashpot::sliding_test

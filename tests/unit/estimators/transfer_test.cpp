@@ -11,7 +11,7 @@
 #include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/estimators/frequency_response.hpp>
 
-namespace dashpot {
+namespace dashpot::transfer_test {
 namespace {
 
 constexpr double sample_period = 1e-3;  // [s]
@@ -240,4 +240,4 @@ TEST(PulseTransfer, MultipliesPolynomials) {
 }
 
 }  // namespace
-}  // namespace dashpot
+}  // namespace dashpot::transfer_test

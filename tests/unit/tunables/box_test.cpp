@@ -10,7 +10,7 @@
 #include "support/shrink.hpp"
 #include "support/tunable_run.hpp"
 
-namespace dashpot::testing {
+namespace dashpot::testing::box_test {
 namespace {
 
 using namespace dashpot::compiler;
@@ -270,4 +270,4 @@ TEST(Box, EnergyOfEmittedConstantsIsLookedAtExactly) {
 }
 
 }  // namespace
-}  // namespace dashpot::testing
+}  // namespace dashpot::testing::box_test

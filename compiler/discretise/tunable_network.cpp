@@ -12,6 +12,7 @@
 #include "discretise/tunable_blocks.hpp"
 #include "discretise/tunable_graph.hpp"
 #include "linear/validity.hpp"
+#include "network/effect.hpp"
 #include "network/law.hpp"
 
 namespace dashpot::compiler {
@@ -132,10 +133,7 @@ class TablesBuilder {
   }
 
   Tree tree_of(const std::vector<std::size_t>& elements) const {
-    Network part = structure_;
-    for (Element& element : part.elements) element.has_effect = false;
-    for (std::size_t element : elements) part.elements[element].has_effect = true;
-    return series_parallel_tree(part).value();
+    return series_parallel_tree(with_effect_of(elements, structure_)).value();
   }
 
   std::vector<std::size_t> linear_elements(const NormalForm& form) const {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "linear/modal_reduction.hpp"
+#include "network/effect.hpp"
 #include "network/law.hpp"
 #include "network/match.hpp"
 
@@ -85,12 +86,6 @@ bool has_slips(const Network& network, const std::vector<std::size_t>& elements)
                      [&](std::size_t element) { return is_slip(network.elements[element].law); });
 }
 
-std::optional<Tree> tree_of(Network network, const std::vector<std::size_t>& elements) {
-  for (Element& element : network.elements) element.has_effect = false;
-  for (std::size_t element : elements) network.elements[element].has_effect = true;
-  return series_parallel_tree(network);
-}
-
 // How the surface of a contact moves depends on all that is behind it, so that all slips are solved together.
 void join_behind_surface(NormalForm& form) {
   std::vector<std::size_t> together;
@@ -107,7 +102,7 @@ NormalForm form_by_parts(const Network& network) {
   std::vector<std::size_t> linear;
   for (Part& part : independent_parts(network, effective_elements(network), tool, ground)) {
     if (!has_slips(network, part.elements)) linear.insert(linear.end(), part.elements.begin(), part.elements.end());
-    else if (const std::optional<Tree> tree = tree_of(network, part.elements))
+    else if (const std::optional<Tree> tree = series_parallel_tree(with_effect_of(part.elements, network)))
       form.components.push_back(normal(*tree, network));
     else form.networks.push_back(std::move(part.elements));
   }

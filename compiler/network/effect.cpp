@@ -106,6 +106,12 @@ std::vector<bool> on_path_between_ends(const Network& network, const std::vector
   return on_path;
 }
 
+Network with_effect_of(const std::vector<std::size_t>& elements, Network network) {
+  for (Element& element : network.elements) element.has_effect = false;
+  for (std::size_t element : elements) network.elements[element].has_effect = true;
+  return network;
+}
+
 Network along(const std::vector<bool>& passable, Network network) {
   const std::vector<bool> on_path = on_path_between_ends(network, passable);
   for (std::size_t i = 0; i < on_path.size(); ++i) network.elements[i].has_effect = on_path[i];

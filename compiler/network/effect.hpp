@@ -1,6 +1,7 @@
 // Which elements can carry force between tool and ground.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "network/network.hpp"
@@ -12,6 +13,9 @@ namespace dashpot::compiler {
 // one more edge from tool to ground (Hopcroft & Tarjan 1973): an element lies on such a path exactly when it shares a
 // block with that edge.
 std::vector<bool> on_path_between_ends(const Network& network, const std::vector<bool>& passable);
+
+// The same network, in which these elements alone have an effect.
+Network with_effect_of(const std::vector<std::size_t>& elements, Network network);
 
 // The same network, in which only elements on such a path have an effect.
 Network along(const std::vector<bool>& passable, Network network);

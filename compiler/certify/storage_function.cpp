@@ -30,9 +30,6 @@ constexpr double usual_strictness = 0.25, least_strictness = 0.25e-3;
 constexpr double most_off_in_doubles = 1e-10;  // relative error of a supremum; if it is larger, 50 digits are used
 
 template <class Scalar>
-using Complex = std::complex<Scalar>;
-
-template <class Scalar>
 using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
 // 1/T, and q, p, κ of an amplifier's lag; of none q = p = κ = 0. Of a command that acts late the rate at which samples
@@ -117,12 +114,12 @@ class Response {
     }
   }
 
-  std::vector<Complex<Scalar>> at(double angle) const {
-    using Matrix = Dense<Complex<Scalar>>;
+  std::vector<std::complex<Scalar>> at(double angle) const {
+    using Matrix = Dense<std::complex<Scalar>>;
     using std::sin;
     const Scalar sine = sin(Scalar(angle) / 2);
-    const Complex<Scalar> less_one(-2 * sine * sine, sin(Scalar(angle)));  // z − 1
-    std::vector<Complex<Scalar>> x(std::size_t(r_.A.rows()));
+    const std::complex<Scalar> less_one(-2 * sine * sine, sin(Scalar(angle)));  // z − 1
+    std::vector<std::complex<Scalar>> x(std::size_t(r_.A.rows()));
     for (const auto& [from, end] : blocks_) {
       const Eigen::Index size = end - from;
       Matrix left = Matrix::Zero(size, size), right(size, 1);
@@ -131,7 +128,7 @@ class Response {
         for (Eigen::Index j = 0; j < from; ++j)
           if (r_.A(i, j) != 0) right(i - from, 0) += r_.A(i, j) * x[std::size_t(j)];
         for (Eigen::Index j = from; j < end; ++j)
-          left(i - from, j - from) = i == j ? less_one + Scalar(1 - r_.A(i, i)) : Complex<Scalar>(-r_.A(i, j));
+          left(i - from, j - from) = i == j ? less_one + Scalar(1 - r_.A(i, i)) : std::complex<Scalar>(-r_.A(i, j));
       }
       const Matrix solution = size == 1 ? Matrix(right / left(0, 0)) : Matrix(left.partialPivLu().solve(right));
       for (Eigen::Index i = from; i < end; ++i) x[std::size_t(i)] = solution(i - from, 0);
@@ -158,14 +155,14 @@ class Need {
              Scalar(late.spread), Scalar(late.mixed), Scalar(late.apart)};
   }
 
-  Scalar at(double angle, const std::vector<Complex<Scalar>>& x) const {
+  Scalar at(double angle, const std::vector<std::complex<Scalar>>& x) const {
     using std::sqrt;
     Scalar answer = r_.stiffness / 2;
     for (std::size_t i = 0; i < x.size(); ++i) answer -= r_.C(0, Eigen::Index(i)) * x[i].real();
     Scalar square = hold_.spread == 0 ? Scalar(0) : hold_.spread * std::norm(x.back());
     if (hold_.late > 0) {
-      const Complex<Scalar> change = last_change(angle, x);  // h
-      Complex<Scalar> lacking(0);                            // e
+      const std::complex<Scalar> change = last_change(angle, x);  // h
+      std::complex<Scalar> lacking(0);                            // e
       if (hold_.spread != 0) {
         lacking = turned_back(angle) * x.back() * late_.kept;
         answer += hold_.share * x.back().real() - late_.later_share * lacking.real();
@@ -178,17 +175,17 @@ class Need {
   }
 
  private:
-  static Complex<Scalar> turned_back(double angle) {  // w = z⁻¹
+  static std::complex<Scalar> turned_back(double angle) {  // w = z⁻¹
     using std::cos, std::sin;
     return {cos(Scalar(angle)), -sin(Scalar(angle))};
   }
 
   // Of the command, from the sample before to this one: − k0 w − (1 − w) C x, without what C has of e.
-  Complex<Scalar> last_change(double angle, const std::vector<Complex<Scalar>>& x) const {
+  std::complex<Scalar> last_change(double angle, const std::vector<std::complex<Scalar>>& x) const {
     using std::sin;
     const Scalar sine = sin(Scalar(angle) / 2);
-    const Complex<Scalar> difference(2 * sine * sine, sin(Scalar(angle)));  // 1 − w
-    Complex<Scalar> force(0);
+    const std::complex<Scalar> difference(2 * sine * sine, sin(Scalar(angle)));  // 1 − w
+    std::complex<Scalar> force(0);
     for (std::size_t i = 0; i < x.size(); ++i) force += x[i] * r_.C(0, Eigen::Index(i));
     if (hold_.spread != 0) force -= x.back() * hold_.share;
     return -(turned_back(angle) * r_.stiffness) - difference * force;
@@ -232,9 +229,9 @@ class StateScales {
     const Response<Scalar> response(r);
     const Need<Scalar> need(r, hold, device);
     for (const double angle : angles_of_interest(binding, least_leak(r))) {
-      const std::vector<Complex<Scalar>> x = response.at(angle);
+      const std::vector<std::complex<Scalar>> x = response.at(angle);
       places_.push_back({double(need.at(angle, x)), {}});
-      for (const Complex<Scalar>& state : x) places_.back().squares.push_back(double(std::norm(state)));
+      for (const std::complex<Scalar>& state : x) places_.back().squares.push_back(double(std::norm(state)));
       if (hold.late > 0)
         places_.back().squares.front() = double(hold.late);  // what the tool moves until a command acts
     }

@@ -8,8 +8,6 @@
 namespace dashpot::compiler {
 namespace {
 
-using ReferenceKind = ReferencePart::Kind;
-
 // The elements of a linear subtree between a tool and a ground of their own.
 class Chain {
  public:

@@ -19,6 +19,8 @@ struct ReferencePart {
   std::vector<ReferencePart> children;
 };
 
+using ReferenceKind = ReferencePart::Kind;
+
 // What reaches ground without a slip, and the parts with slips beside it: trees, and others by their elements. Behind a
 // contact all slips are one part if any are in no tree.
 struct ReferenceTree {

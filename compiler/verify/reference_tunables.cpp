@@ -11,8 +11,6 @@
 namespace dashpot::compiler {
 namespace {
 
-using ReferenceKind = ReferencePart::Kind;
-
 Reference value_in_100_digits(const Element& e) { return value_of(e.law); }
 
 class Blocks {

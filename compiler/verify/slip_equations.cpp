@@ -6,7 +6,6 @@
 namespace dashpot::compiler {
 namespace {
 
-using ReferenceKind = ReferencePart::Kind;
 using Values = SlipEquations::Values;
 
 bool is_empty(const ReferenceForm& f) {

@@ -5,8 +5,6 @@
 namespace dashpot::compiler {
 namespace {
 
-using ReferenceKind = ReferencePart::Kind;
-
 // p = g δ + Σ forces: what a part holds, as a function of its elongation; a slip is held at a given elongation.
 struct Branch {
   const ReferencePart* part;

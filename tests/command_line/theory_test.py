@@ -47,9 +47,11 @@ class TheoryTest(CommandTest):
         for name in ("Forms.v", "Loop.v", "Hold.v", "Sums.v", "Slips.v", "Clamp.v"):
             self.coqc(name, (THEORY / name).read_text())
         for name, theorems, axioms in (("Theorems.v", THEOREMS, AXIOMS), ("Integrals.v", ON_INTEGRALS, INTEGRALS)):
-            asked = [f"Print Assumptions {file}.{theorem}." for file, names in theorems.items() for theorem in names]
-            printed = self.coqc(name, "\n".join([f"Require {' '.join(theorems)}.", *asked, ""]))
-            self.assertEqual(len(re.findall("^Axioms:$|^Closed under", printed, re.M)), len(asked))
+            # What several rest on is what their tuple rests on: Coq then goes through its library once.
+            named = ", ".join(f"@{file}.{theorem}" for file, names in theorems.items() for theorem in names)
+            printed = self.coqc(name, f"Require {' '.join(theorems)}.\nDefinition all := ({named}).\n"
+                                      "Print Assumptions all.\n")
+            self.assertEqual(len(re.findall("^Axioms:$", printed, re.M)), 1)
             self.assert_no_more_axioms(printed, axioms)
         device = json.loads(PANTOGRAPH.read_text())
         late = device | {"velocity": {"estimator": "backward_difference", "window": 1}}

@@ -9,8 +9,7 @@ import urllib.request
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # the key of an element's identity, fixed by the standard
 ARGUMENTS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
              "--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage",
-             "--window-size=1100,900",
-             "--disable-frame-rate-limit", "--disable-gpu-vsync"]  # a pointer is moved once a frame, and nobody looks
+             "--window-size=1100,900"]
 
 
 class Browser:

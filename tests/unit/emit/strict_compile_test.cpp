@@ -81,28 +81,23 @@ void expect_no_symbol_undefined(const std::filesystem::path& folder, const std::
 
 class StrictCompile : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    const std::vector<std::string> files = network_files(folder_->path());
-    for (const Choice& choice : choices)
-      emitted_.push_back(emit_headers(folder_->path() / choice.name, files, choice.options));
-  }
-  static void TearDownTestSuite() {
-    emitted_.clear();
-    delete folder_;
+  EmittedFolder emitted(const Choice& choice) const {
+    return emit_headers(folder_.path() / choice.name, files_, choice.options);
   }
 
-  static inline TemporaryFolder* folder_ = nullptr;
-  static inline std::vector<EmittedFolder> emitted_;  // in the order of `choices`
+  const TemporaryFolder folder_;
+
+ private:
+  const std::vector<std::string> files_ = network_files(folder_.path());
 };
 
 // Fails if a header needs another one before it, or a compiler has anything to say about it.
 TEST_F(StrictCompile, TakesEveryHeaderAlone) {
+  const EmittedFolder headers = emitted(choices[0]);
   for (const Compiler& compiler : compilers)
-    for (const std::string& name : with_batches(emitted_.front().classes)) {
-      const std::string line =
-          fmt::format("echo '#include \"{}.hpp\"' | '{}' {} -fsyntax-only {} -I'{}' -x c++ -", name, compiler.path,
-                      strict, runtime_include(), emitted_.front().path.string());
+    for (const std::string& name : with_batches(headers.classes)) {
+      const std::string line = fmt::format("echo '#include \"{}.hpp\"' | '{}' {} -fsyntax-only {} -I'{}' -x c++ -",
+                                           name, compiler.path, strict, runtime_include(), headers.path.string());
       const Finished finished = run_command(line);
       EXPECT_TRUE(finished.status == 0 && finished.output.empty()) << compiler.name << ", " << name << ":\n"
                                                                    << finished.output;
@@ -112,16 +107,17 @@ TEST_F(StrictCompile, TakesEveryHeaderAlone) {
 // Fails if calling any member, at any level of optimisation, warns, needs a symbol from elsewhere (memset for a reset
 // of many states, a run-time library for an object that is not initialised by constants), or uses much stack.
 TEST_F(StrictCompile, LeavesNoSymbolUndefined) {
-  for (std::size_t i = 0; i < emitted_.size(); ++i) {
-    const std::filesystem::path caller = folder_->path() / "caller.cpp", object = folder_->path() / "caller.o";
-    write_text(caller, caller_of(emitted_[i]));
+  for (std::size_t i = 0; i < std::size(choices); ++i) {
+    const std::filesystem::path caller = folder_.path() / "caller.cpp", object = folder_.path() / "caller.o";
+    const EmittedFolder headers = emitted(choices[i]);
+    write_text(caller, caller_of(headers));
     for (std::size_t k = 0; k < std::size(compilers); ++k)
       for (const std::string& level : levels_for(i, k)) {
         const Compiler& compiler = compilers[k];
         const bool optimised = level == "-O2";  // stack is measured where code is laid out for small frames
         const Finished built = run_command(fmt::format("'{}' {} {} {} -c '{}' -o '{}' {} -I'{}'", compiler.path, strict,
                                                        level, optimised ? compiler.flags : "", caller.string(),
-                                                       object.string(), runtime_include(), emitted_[i].path.string()));
+                                                       object.string(), runtime_include(), headers.path.string()));
         EXPECT_TRUE(built.status == 0 && built.output.empty())
             << compiler.name << level << ", " << choices[i].name << ":\n"
             << built.output.substr(0, 4000);
@@ -135,9 +131,9 @@ TEST_F(StrictCompile, LeavesNoSymbolUndefined) {
 
 // Fails likewise for a batch, but that storage of its own is put to rest before a program begins.
 TEST_F(StrictCompile, LeavesNoSymbolOfABatchUndefined) {
+  const EmittedFolder headers = emitted(choices[0]);
   for (const char* name : {"second_order_maxwell", "twenty_branches"})
-    expect_no_symbol_undefined(folder_->path(), emitted_.front().path, caller_of_batch(name), name,
-                               {"-O0", "-O2", "-O3"});
+    expect_no_symbol_undefined(folder_.path(), headers.path, caller_of_batch(name), name, {"-O0", "-O2", "-O3"});
 }
 
 // Fails likewise where slips of each point are solved together; at -O0 clang clears whatever array by memset.

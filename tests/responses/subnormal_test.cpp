@@ -3,6 +3,7 @@
 
 #include <cfenv>
 #include <cmath>
+#include <optional>
 
 #ifdef __SSE2__
 #include <xmmintrin.h>
@@ -62,11 +63,13 @@ TEST(Subnormal, IsNeverAStateThatDecays) {
       for (const Sample& sample : samples_of(random_motion(16, 20), law.sample_period))
         model->step(sample.position, sample.velocity);
       const double position = 32 * unit_increment;
+      std::optional<SubnormalWatch> watch;
       for (int n = 0; n < held; ++n) {
-        const SubnormalWatch watch;
+        if (!watch) watch.emplace();
         model->step(position, 0);
-        if (watch.saw_one()) FAIL() << law.title() << " computes with a subnormal number at sample " << n;
         if (n > watched_closely && n % stride != 0) continue;
+        if (watch->saw_one()) FAIL() << law.title() << " computes with a subnormal number at or before sample " << n;
+        watch.reset();
         ASSERT_TRUE(model->keeps_only_normal_numbers()) << law.title() << ", sample " << n;
       }
     }

@@ -7,7 +7,7 @@
 namespace dashpot::testing {
 namespace {
 
-int certified_devices() { return static_cast<int>(repetitions(50, 2000)); }
+int certified_devices() { return static_cast<int>(repetitions(30, 2000)); }
 
 // If this failed, a certified law would give out more energy than it took up: with ideal sensors the energy that motor,
 // brake and mechanics have taken up together is never below zero, the brake at either end of its tolerance, with jitter
@@ -47,7 +47,7 @@ TEST(CertifiedLoops, GiveOutNoMoreThanFrictionLeavesUnpaid) {
 // If this failed, a law would be stated for samples of one period on a device whose samples come early and late.
 TEST(CertifiedLoops, LeaveNoJitterOut) {
   int lagging = 0;
-  for (std::uint64_t seed = 1; seed <= 3 * repetitions(100, 2000); ++seed) {
+  for (std::uint64_t seed = 1; seed <= 3 * repetitions(60, 2000); ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = random_case(seed);
     if (!one.compilation) continue;

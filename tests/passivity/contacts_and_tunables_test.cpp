@@ -16,7 +16,7 @@ namespace {
 
 using namespace dashpot::compiler;
 
-int certified_surfaces() { return static_cast<int>(repetitions(25, 1000)); }
+int certified_surfaces() { return static_cast<int>(repetitions(15, 1000)); }
 
 // If this failed, a tool that touches and lets go, on a device with no more damping than the certificate asks for,
 // would give out energy in some passive hand.

@@ -15,7 +15,7 @@ namespace {
 
 using namespace dashpot::compiler;
 
-int faithful_choices() { return static_cast<int>(repetitions(7, 500)); }
+int faithful_choices() { return static_cast<int>(repetitions(5, 500)); }
 int scanned_points() { return static_cast<int>(repetitions(60, 400)); }
 
 CompiledCase faithful_case(std::uint64_t seed) {

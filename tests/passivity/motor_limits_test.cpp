@@ -23,7 +23,7 @@ namespace {
 
 using namespace dashpot::compiler;
 
-int runs() { return static_cast<int>(repetitions(80, 10'000)); }
+int runs() { return static_cast<int>(repetitions(48, 10'000)); }
 
 // A motor that gives little of what is asked for, behind a lag or, with a chance of `prompt`, not.
 void limit(CompiledCase& one, Random& random, double prompt = 0.7) {

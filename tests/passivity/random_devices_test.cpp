@@ -12,7 +12,7 @@ namespace {
 
 using namespace dashpot::compiler;
 
-int compared_devices() { return static_cast<int>(repetitions(200, 5000)); }
+int compared_devices() { return static_cast<int>(repetitions(120, 5000)); }
 
 constexpr double pi = 3.14159265358979323846;
 

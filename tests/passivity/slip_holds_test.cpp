@@ -17,7 +17,7 @@ namespace {
 
 using namespace dashpot::compiler;
 
-int certified_slips() { return static_cast<int>(repetitions(60, 3000)); }
+int certified_slips() { return static_cast<int>(repetitions(36, 3000)); }
 
 struct Exchange {
   double energy = 0, least = 0, largest = 0;  // [J]
@@ -121,7 +121,7 @@ TEST(SlipHolds, GiveOutNoEnergy) {
 // If this failed, the steady or the ramped law would give out energy: their compensation by an estimate, the memory of
 // that, the coil, the tolerance or the jitter would not be allowed for.
 TEST(SlipHolds, SteadyAndRampedGiveOutNoEnergy) {
-  const int wanted = static_cast<int>(repetitions(40, 1000));  // of each
+  const int wanted = static_cast<int>(repetitions(24, 1000));  // of each
   int steady = 0, ramped = 0, lagging = 0, earning = 0;
   for (std::uint64_t seed = 1; steady < wanted || ramped < wanted; ++seed) {
     SCOPED_TRACE(seed);

@@ -125,7 +125,7 @@ Choices drawn_choices(Random& random) {
 }
 
 TEST(SwappedConstants, AreFoundInLawsWithSlips) {
-  const std::uint64_t cases = repetitions(30, 2000);
+  const std::uint64_t cases = repetitions(18, 2000);
   int swapped = 0;
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     Random random(seed + 70000);
@@ -146,7 +146,7 @@ TEST(SwappedConstants, AreFoundInLawsWithSlips) {
 }
 
 TEST(SwappedConstants, AreFoundInLawsWithTunables) {
-  const std::uint64_t cases = repetitions(32, 2000);
+  const std::uint64_t cases = repetitions(20, 2000);
   int swapped = 0;
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     Random random(seed + 71000);

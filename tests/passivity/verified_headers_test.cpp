@@ -177,7 +177,7 @@ TEST(VerifiedHeaders, OfMoreSlipsThanBits) {
 
 // The same of networks that nobody chose.
 TEST(VerifiedHeaders, OfRandomNetworksWithSlips) {
-  const std::uint64_t cases = repetitions(16, 2700);
+  const std::uint64_t cases = repetitions(10, 2700);
   const std::string devices[] = {"", text_of("runtime/devices/board_mps2.json"),
                                  text_of("runtime/devices/pantograph_brake_2009.json")};
   const char* laws[] = {"faithful", "paper", "velocity-free", "gated", "steady", "ramped", "virtual"};
@@ -204,7 +204,7 @@ TEST(VerifiedHeaders, OfRandomNetworksWithSlips) {
 }
 
 TEST(VerifiedHeaders, OfRandomNetworksWithTunables) {
-  const std::uint64_t cases = repetitions(16, 1600);
+  const std::uint64_t cases = repetitions(10, 1600);
   int written = 0;
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     Random random(seed + 91000);

@@ -186,7 +186,7 @@ void expect_supremum_of(const MotorConstants& motor, const SampledLoop& loop, in
 }
 
 TEST(Supremum, IsMetByRandomMotorsToTheEndsOfTheirRanges) {
-  const std::uint64_t cases = repetitions(40, 3000);
+  const std::uint64_t cases = repetitions(24, 3000);
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed + 7000);
@@ -299,10 +299,10 @@ void expect_suprema(std::uint64_t cases, bool writes_late) {
   EXPECT_GE(proved.extracted, proved.needed * 95 / 100);
 }
 
-TEST(Supremum, IsWhatStorageFunctionsProveOfRandomMotors) { expect_suprema(repetitions(25, 5000), false); }
+TEST(Supremum, IsWhatStorageFunctionsProveOfRandomMotors) { expect_suprema(repetitions(15, 5000), false); }
 
 // The same of commands that act later than their samples, behind lags too.
-TEST(Supremum, IsWhatStorageFunctionsProveOfLateCommands) { expect_suprema(repetitions(15, 1000), true); }
+TEST(Supremum, IsWhatStorageFunctionsProveOfLateCommands) { expect_suprema(repetitions(9, 1000), true); }
 
 // If this failed, doubles would keep too few digits of a pole next to −1, of an estimate that follows every sample, to
 // find the supremum or a P near it; no state would be looked at where a filter near half the rate rings; the checker

@@ -75,24 +75,24 @@ NetworkRecipe recipe(std::size_t most_slips, Topology topology = Topology::tree)
 // If this failed, the law without slips would open or close the gap at the wrong time, or put the surface in the wrong
 // place.
 TEST(ContactAgreement, LinearLawMatchesElementSimulation) {
-  EXPECT_EQ(first_failure(1, repetitions(120, 20000), recipe(0), disagreement), "");
+  EXPECT_EQ(first_failure(1, repetitions(72, 20000), recipe(0), disagreement), "");
 }
 
 // The same behind slips, where the whole curve must be known to find its zero.
 TEST(ContactAgreement, SlipsMatchElementSimulation) {
-  EXPECT_EQ(first_failure(1, repetitions(120, 20000), recipe(6), disagreement), "");
+  EXPECT_EQ(first_failure(1, repetitions(72, 20000), recipe(6), disagreement), "");
 }
 
 // The same where the slips meet outside a tree: the contact is one of them.
 TEST(ContactAgreement, NonTreeSlipsMatchElementSimulation) {
-  EXPECT_EQ(first_failure(1, repetitions(120, 20000), recipe(5, Topology::graph), disagreement), "");
+  EXPECT_EQ(first_failure(1, repetitions(72, 20000), recipe(5, Topology::graph), disagreement), "");
 }
 
 // If this failed, a tissue would give energy away when it is left or touched again, or hold on to the tool.
 TEST(ContactEnergy, NeverRisesByMoreThanTheWork) {
   for (const compiler::Scheme scheme : {compiler::Scheme::exact, compiler::Scheme::backward_euler})
     for (const NetworkRecipe& shape : {recipe(0), recipe(6), recipe(5, Topology::graph)})
-      EXPECT_EQ(first_failure(1, repetitions(120, 20000), shape,
+      EXPECT_EQ(first_failure(1, repetitions(72, 20000), shape,
                               [=](const compiler::Network& network) { return breach(network, scheme); }),
                 "");
 }

@@ -62,8 +62,8 @@ NetworkRecipe recipe(Topology topology) {
 
 // Fails if half the low-frequency viscosity in the brake is not enough for every estimator with |G| ≤ 1, or if less is.
 TEST(Passivity, HalfViscosityTheorem) {
-  EXPECT_EQ(first_failure(1, repetitions(100, 1000), recipe(Topology::tree), complaint_about_half_viscosity), "");
-  EXPECT_EQ(first_failure(1, repetitions(100, 1000), recipe(Topology::graph), complaint_about_half_viscosity), "");
+  EXPECT_EQ(first_failure(1, repetitions(60, 1000), recipe(Topology::tree), complaint_about_half_viscosity), "");
+  EXPECT_EQ(first_failure(1, repetitions(60, 1000), recipe(Topology::graph), complaint_about_half_viscosity), "");
 }
 
 // What must be added so that no estimator on the unit circle makes the split active, tried out one by one.
@@ -100,8 +100,8 @@ std::string complaint_about_extra_damping(const Network& network) {
 
 // Fails if the extra damping that makes any delay harmless is missed at some frequency, or overstated.
 TEST(Passivity, ExtraDampingForAnyDelay) {
-  EXPECT_EQ(first_failure(1, repetitions(40, 400), recipe(Topology::tree), complaint_about_extra_damping), "");
-  EXPECT_EQ(first_failure(1, repetitions(40, 400), recipe(Topology::graph), complaint_about_extra_damping), "");
+  EXPECT_EQ(first_failure(1, repetitions(24, 400), recipe(Topology::tree), complaint_about_extra_damping), "");
+  EXPECT_EQ(first_failure(1, repetitions(24, 400), recipe(Topology::graph), complaint_about_extra_damping), "");
 }
 
 // Fails if position driven states are not delay-passive exactly when 2b ≥ b∞.
@@ -127,8 +127,8 @@ std::string complaint_about_negative_damping(const Network& network) {
 
 // Fails if any candidate of any network is one that a brake cannot make, or lacks the property that it is named for.
 TEST(Passivity, CandidatesKeepTheirPromises) {
-  EXPECT_EQ(first_failure(1, repetitions(100, 1000), recipe(Topology::tree), complaint_about_negative_damping), "");
-  EXPECT_EQ(first_failure(1, repetitions(100, 1000), recipe(Topology::graph), complaint_about_negative_damping), "");
+  EXPECT_EQ(first_failure(1, repetitions(60, 1000), recipe(Topology::tree), complaint_about_negative_damping), "");
+  EXPECT_EQ(first_failure(1, repetitions(60, 1000), recipe(Topology::graph), complaint_about_negative_damping), "");
 }
 
 }  // namespace

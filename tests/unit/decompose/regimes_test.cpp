@@ -136,7 +136,7 @@ TEST(Regimes, FollowTheRulesOfRigidAndConstantParts) {
   testing::NetworkRecipe recipe;
   recipe.most_nodes = 9;
   recipe.most_slips = 6;
-  EXPECT_EQ(testing::first_failure(1, testing::repetitions(150, 10000), recipe, departure_from_the_rules), "");
+  EXPECT_EQ(testing::first_failure(1, testing::repetitions(90, 10000), recipe, departure_from_the_rules), "");
 }
 
 }  // namespace

@@ -204,7 +204,7 @@ TEST(Law, EveryCandidateRendersTheNetwork) {
         choices.scheme = scheme;
         choices.state_input = input;
         choices.rate = rate;
-        EXPECT_EQ(first_failure(1, repetitions(5, 100), small_graphs(),
+        EXPECT_EQ(first_failure(1, repetitions(3, 100), small_graphs(),
                                 [&](const Network& network) { return complaint_about(network, choices); }),
                   "");
       }
@@ -233,7 +233,7 @@ std::string complaint_about_energy(const Network& network) {
 
 // Fails if a position driven law gives back more energy than was put in (theory, section 6, energy lemma).
 TEST(Law, StoresNoMoreThanTheWorkDone) {
-  EXPECT_EQ(first_failure(1, repetitions(40, 400), small_graphs(), complaint_about_energy), "");
+  EXPECT_EQ(first_failure(1, repetitions(24, 400), small_graphs(), complaint_about_energy), "");
 }
 
 }  // namespace

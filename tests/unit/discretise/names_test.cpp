@@ -172,7 +172,7 @@ TEST(Names, ModesOfManyElements) {
   NetworkRecipe recipe;
   recipe.topology = Topology::graph;
   recipe.most_nodes = 10;
-  EXPECT_EQ(first_failure(1, repetitions(50, 500), recipe,
+  EXPECT_EQ(first_failure(1, repetitions(30, 500), recipe,
                           [](const Network& network) {
                             return complaint_about_names(*Compiled(json_text(network)).operator->());
                           }),

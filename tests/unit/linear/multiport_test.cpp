@@ -95,7 +95,7 @@ TEST(Multiport, MatchesOnePortsWithTerminalsHeldOrMoving) {
   recipe.topology = Topology::graph;
   recipe.most_nodes = 12;
   for (std::uint64_t choice = 1; choice <= 3; ++choice)
-    EXPECT_EQ(first_failure(1, repetitions(200, 5000), recipe,
+    EXPECT_EQ(first_failure(1, repetitions(120, 5000), recipe,
                             [=](const compiler::Network& network) { return difference(network, choice); }),
               "");
 }

@@ -85,7 +85,7 @@ NetworkRecipe recipe(Topology topology = Topology::tree) {
 
 std::string first_failure_of(std::string (*complaint)(const compiler::Network&, compiler::Scheme),
                              compiler::Scheme scheme, Topology topology = Topology::tree) {
-  return first_failure(1, repetitions(120, 20000), recipe(topology),
+  return first_failure(1, repetitions(72, 20000), recipe(topology),
                        [=](const compiler::Network& network) { return complaint(network, scheme); });
 }
 

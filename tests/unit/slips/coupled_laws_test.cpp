@@ -114,7 +114,7 @@ TEST(CoupledLaws, GatedTakesTheDamperOfTheWeakestInAChain) {
 // If this failed, the motor alone would give more than it took, under whatever brake and coil.
 TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergy) {
   for (const Topology topology : {Topology::tree, Topology::graph})
-    EXPECT_EQ(first_failure(1, repetitions(80, 20000), coupled_recipe(topology),
+    EXPECT_EQ(first_failure(1, repetitions(48, 20000), coupled_recipe(topology),
                             [](const auto& network) { return gain_of_gated(network, false); }),
               "");
 }
@@ -122,7 +122,7 @@ TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergy) {
 // The same behind a contact.
 TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergyBehindAContact) {
   for (const Topology topology : {Topology::tree, Topology::graph})
-    EXPECT_EQ(first_failure(1, repetitions(80, 20000), coupled_recipe(topology),
+    EXPECT_EQ(first_failure(1, repetitions(48, 20000), coupled_recipe(topology),
                             [](const auto& network) { return gain_of_gated(network, true); }),
               "");
 }

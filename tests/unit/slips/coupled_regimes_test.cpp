@@ -158,7 +158,7 @@ TEST(CoupledRegimes, TheCoilCanFollow) {
 // The motor alone, under any switching of the brake, could give more than it took.
 TEST(CoupledRegimes, TheMotorAloneMakesNoEnergy) {
   for (const Topology topology : {Topology::tree, Topology::graph})
-    EXPECT_EQ(first_failure(1, repetitions(120, 20000), coupled_recipe(topology), gain_without_brake), "");
+    EXPECT_EQ(first_failure(1, repetitions(72, 20000), coupled_recipe(topology), gain_without_brake), "");
 }
 
 // If this failed, the random networks above would leave nothing to the brake, and the test prove nothing.

@@ -296,7 +296,7 @@ std::string departure_when_capped(const compiler::Network& network) {
 }
 
 std::string first_gain(const char* law) {
-  return first_failure(1, repetitions(120, 20000), few_slips(),
+  return first_failure(1, repetitions(72, 20000), few_slips(),
                        [=](const compiler::Network& network) { return gain_with_a_small_brake(network, law); });
 }
 
@@ -310,7 +310,7 @@ TEST(SwitchingTheorem, Gated) { EXPECT_EQ(first_gain("gated"), ""); }
 
 // Fails if a brake that cannot give all makes another network of it.
 TEST(SwitchingTheorem, CappedLawsAreExact) {
-  EXPECT_EQ(first_failure(1, repetitions(120, 20000), few_slips(), departure_when_capped), "");
+  EXPECT_EQ(first_failure(1, repetitions(72, 20000), few_slips(), departure_when_capped), "");
 }
 
 }  // namespace dashpot::testing

@@ -184,7 +184,7 @@ void expect_same_law_of_w(std::uint64_t seed, const TunableLaw& curved, const Tu
 TEST(BehindMap, FollowsChangingParameters) {
   int tried = 0;
   for (const Kind kind : {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::touched, Kind::slips})
-    for (std::uint64_t seed = 1; seed <= repetitions(4, 200); ++seed) {
+    for (std::uint64_t seed = 1; seed <= repetitions(3, 200); ++seed) {
       const std::string network = tunable_network(seed, kind);
       Choices choices;
       if (kind == Kind::slips) choices.decomposition = 0.0;

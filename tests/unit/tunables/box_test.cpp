@@ -68,7 +68,7 @@ double given_out(const UpdateLaw& update_law, const std::vector<double>& values,
 // If this failed, somewhere in its box a certified law would give out energy.
 TEST(Box, CertifiedLawsGiveOutNoEnergy) {
   int certified = 0, with_meshes = 0, with_slips = 0, outside_trees = 0, raised = 0;
-  for (std::uint64_t seed = 1; certified < int(repetitions(30, 2000)); ++seed) {
+  for (std::uint64_t seed = 1; certified < int(repetitions(18, 2000)); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const Kind kind = kinds[seed % 5];
@@ -136,7 +136,7 @@ double given_out_behind_a_coil(const UpdateLaw& update_law, const Device& device
 // parameter raise the brake's command, and with it what the motor takes out of it, before the brake is there.
 TEST(Box, CertifiedLawsGiveOutNoEnergyBehindACoil) {
   int certified = 0, follows = 0;
-  for (std::uint64_t seed = 1; certified < int(repetitions(30, 1000)); ++seed) {
+  for (std::uint64_t seed = 1; certified < int(repetitions(18, 1000)); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     Device device = punctual_device(random);

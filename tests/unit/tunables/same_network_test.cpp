@@ -46,7 +46,7 @@ double difference(const std::string& text, std::uint64_t seed, compiler::Scheme 
 constexpr double force_rounding = 1e-9;
 
 void expect_same_forces(Kind kind, compiler::Scheme scheme) {
-  for (std::uint64_t seed = 1; seed <= repetitions(100, 5000); ++seed) {
+  for (std::uint64_t seed = 1; seed <= repetitions(60, 5000); ++seed) {
     const std::string text = tunable_network(seed, kind);
     ASSERT_LE(difference(text, seed, scheme), force_rounding) << "seed " << seed << ", " << text;
   }

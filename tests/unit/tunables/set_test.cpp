@@ -17,7 +17,7 @@ using Law = compiler::Evaluation<double>;
 
 constexpr double period = 1e-3;  // [s]
 
-std::size_t networks() { return repetitions(120, 20000); }
+std::size_t networks() { return repetitions(72, 20000); }
 
 // V_k + T_k − V_{k−1} − T_{k−1} − f_k Δu_k at its worst, relative to the largest energy and work so far. The brake's
 // part is at the true velocity, so that f is the whole force.

@@ -15,7 +15,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WITH_VALUE = {"-o", "-MT", "-MF"}
-SAMPLE = 6
+SAMPLE = 4
 
 
 def sources_of(unity):

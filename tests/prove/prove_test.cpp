@@ -254,7 +254,7 @@ void add(const char* suite, const Subject& subject, void (*expect)(const Subject
 const std::set<std::string> tables_of_the_runtime = {"friction_tunable",  "layers_tunable",
                                                      "needle_in_liver",   "second_order_maxwell_tunable",
                                                      "springpot_tunable", "standard_solid_tunable"};
-// Linear, as standard_solid_tunable is, and larger: in a thorough run alone.
+// Proved with --long alone: linear, as standard_solid_tunable is, and larger.
 const std::set<std::string> larger_linear_ones = {"second_order_maxwell_tunable", "springpot_tunable"};
 // Eva sees what a single number loses, and not what a number and the one that it is taken away from lose together:
 // compensated sums, and four states around one slip. Of these the box is tried alone.
@@ -263,8 +263,8 @@ const std::set<std::string> beyond_eva = {
 
 // AnyCalls: a law in C would leave its memory, or do what C leaves open. Eva: an operation would overflow, a command
 // would not be finite, or states would grow without end. CForm: what is proved would not be what is emitted. Gappa: the
-// banner and the certificate would state less than rounding adds. Networks are read for this and not compiled: it is
-// done again for every single test.
+// banner and the certificate would state less than rounding adds. The networks are only read here, not compiled: CTest
+// starts this program once for each test.
 void register_proofs() {
   for (const fs::path& file : all_networks()) {
     const Subject subject{file};

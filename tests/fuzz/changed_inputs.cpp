@@ -167,7 +167,7 @@ int run_all(const std::vector<std::string>& arguments) {
   if (options.contains("--words")) material.words = words_of(options["--words"]);
   const std::size_t seeds = std::min(all.size(), number("--seeds", all.size()));
   for (std::size_t i = 0; i < seeds; ++i) run(all[i * all.size() / seeds]);
-  const std::size_t usual = number("--changes", 1000), changes = dashpot::testing::repetitions(usual, 20 * usual);
+  const std::size_t usual = number("--changes", 1000), changes = dashpot::testing::repetitions(usual, 10 * usual);
   for (std::uint64_t i = 0; i < changes; ++i) run(changed_input(material, i));
   alarm(0);
   std::printf("%zu seeds of %zu, %zu changed inputs\n", seeds, all.size(), changes);

@@ -55,7 +55,7 @@ std::string complaint_about(const Network& network, const Choice& choice, const 
 
 // The complaint about the first case that has one, with its seed and the smallest network that has it too.
 std::string first_disagreement(const std::string& scalar) {
-  const std::size_t count = repetitions(150, 10000);
+  const std::size_t count = repetitions(250, 10000);
   std::vector<Case> cases;
   for (std::uint64_t seed = 1; seed <= count; ++seed) cases.push_back({network_of(seed), choice_of(seed)});
   const TemporaryFolder folder;

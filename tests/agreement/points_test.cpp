@@ -47,7 +47,7 @@ std::vector<std::string> networks(const fs::path& folder) {
   files.push_back((folder / "pressed_at_0.json").string());
   write_text(files.back(), R"({ "dashpot": 1, "name": "pressed_at_0", "contact": { "at": "-2 mm" },
     "network": { "parallel": [ { "spring": 100 }, { "series": [ { "spring": 200 }, { "damper": 20 } ] } ] } })");
-  for (std::uint64_t seed = 1; seed <= repetitions(3, 12); ++seed) {
+  for (std::uint64_t seed = 1; seed <= repetitions(4, 12); ++seed) {
     NetworkRecipe recipe;
     recipe.topology = seed % 2 == 0 ? Topology::tree : Topology::graph;
     recipe.most_slips = seed % 2 == 0 ? 1 : 0;
@@ -98,7 +98,7 @@ std::vector<std::string> tunable_networks(const fs::path& folder) {
                                                   { "parallel": [ { "slip": "Y" }, { "spring": 90 } ] } ] } ] } ] },
       { "series": [ { "spring": "K" }, { "slip": 0.2 } ] } ] } })");
   constexpr Kind without_slips[] = {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::touched};
-  for (std::uint64_t seed = 1; seed <= repetitions(3, 40); ++seed) {
+  for (std::uint64_t seed = 1; seed <= repetitions(4, 40); ++seed) {
     files.push_back((folder / fmt::format("tunable_{}.json", seed)).string());
     write_text(files.back(), tunable_network(seed, without_slips[seed % 4]));
   }
@@ -122,7 +122,7 @@ std::vector<std::string> coupled_networks(const fs::path& folder, bool tunable) 
   if (tunable) files.push_back(DASHPOT_NETWORKS "/tunable/layers_tunable.json");
   else files.push_back(DASHPOT_NETWORKS "/tissues/needle_in_liver.json");
   constexpr Kind with_slips[] = {Kind::slips, Kind::slips_in_graph, Kind::touched_slips, Kind::touched_slips_in_graph};
-  for (std::uint64_t seed = 1; seed <= repetitions(3, 60); ++seed) {
+  for (std::uint64_t seed = 1; seed <= repetitions(4, 60); ++seed) {
     files.push_back((folder / fmt::format("{}_{}.json", tunable ? "tunable" : "random", seed)).string());
     if (tunable) {
       write_text(files.back(), tunable_network(seed, with_slips[seed % 4]));

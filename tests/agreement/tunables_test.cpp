@@ -101,7 +101,7 @@ struct Case {
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (std::uint64_t seed = 1; seed <= repetitions(15, 240); ++seed)
+  for (std::uint64_t seed = 1; seed <= repetitions(24, 240); ++seed)
     all.push_back({seed, seed % 5 == 0 ? "float" : "double"});
   return all;
 }

@@ -76,7 +76,7 @@ Balance after_attacks(const Compilation& c, const Case& one, double damping, std
 // If this fails, ports that are called certified side by side give out energy.
 TEST(Ports, CertifiedLawsGiveOutNoEnergy) {
   int certified = 0, limited = 0;
-  const int cases = int(repetitions(6, 1000));
+  const int cases = int(repetitions(10, 1000));
   for (std::uint64_t seed = 1; seed <= std::uint64_t(cases); ++seed) {
     const Case one = random_ports(seed, true);
     double damping = 0.3;
@@ -100,7 +100,7 @@ TEST(Ports, CertifiedLawsGiveOutNoEnergy) {
 // port needs most are not those of another it is fewer than of one port.
 TEST(Ports, SomeLawsGiveOutEnergyWithNineTenths) {
   int cases = 0, gains = 0;
-  for (std::uint64_t seed = 1; seed <= repetitions(8, 300); ++seed) {
+  for (std::uint64_t seed = 1; seed <= repetitions(12, 300); ++seed) {
     Case one = random_ports(seed, false);
     one.loop.delay = 0;
     one.loop.force = 1e6;
@@ -126,7 +126,7 @@ TEST(Ports, SomeLawsGiveOutEnergyWithNineTenths) {
   }
   RecordProperty("cases", cases);
   RecordProperty("gains", gains);
-  EXPECT_GE(cases, int(repetitions(8, 300)) * 8 / 10);
+  EXPECT_GE(cases, int(repetitions(12, 300)) * 8 / 10);
   EXPECT_GE(gains, cases * 7 / 10) << "of " << cases;
 }
 

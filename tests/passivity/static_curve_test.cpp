@@ -42,7 +42,7 @@ constexpr double rounding = 1e-12;
 // If this fails, a law behind a curve that is called certified gives out energy.
 TEST(StaticCurves, CertifiedLawsGiveOutNoEnergy) {
   int certified = 0;
-  for (std::uint64_t seed = 1; seed <= repetitions(15, 1000); ++seed) {
+  for (std::uint64_t seed = 1; seed <= repetitions(25, 1000); ++seed) {
     const Case one = random_curve(seed, true);
     Compilation c = on(one, 1e-3);
     double damping = 1e-3;
@@ -61,7 +61,7 @@ TEST(StaticCurves, CertifiedLawsGiveOutNoEnergy) {
       EXPECT_GE(attack.balance().least, -rounding * 2000 * attack.balance().largest) << seed << " " << one.network;
     }
   }
-  EXPECT_GT(certified, int(repetitions(15, 1000)) * 9 / 10);
+  EXPECT_GT(certified, int(repetitions(25, 1000)) * 9 / 10);
 }
 
 // If this fails, the certificate asks for more damping than some motion needs: with nine tenths of it four laws of five
@@ -113,7 +113,7 @@ Case spring_round_slip(std::uint64_t seed, unsigned delay) {
 // If this fails, springs that go on pulling when slips have given way are not counted: where the tool comes from the
 // other end of its range and trembles, the bend of the curve gives out their energy.
 TEST(StaticCurves, SpringsRoundSlipsGiveOutNoEnergy) {
-  for (std::uint64_t seed = 1; seed <= repetitions(8, 300); ++seed) {
+  for (std::uint64_t seed = 1; seed <= repetitions(12, 300); ++seed) {
     const Case one = spring_round_slip(seed, unsigned(seed / 3 % 2));
     const double needed = 1.0000001 * on(one, 1e-3).certificate.bound.needed;
     const Compilation c = on(one, needed);

@@ -101,7 +101,7 @@ const char* const strict =
 // If this failed, what `simulate` shows would not be what runs in the loop.
 TEST(TunableEmission, HasTheBitsOfEvaluate) {
   const TemporaryFolder folder;
-  const std::uint64_t count = repetitions(12, 400);
+  const std::uint64_t count = repetitions(20, 400);
   std::string includes = "#include \"emitted_driver.hpp\"\n", calls;
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     const TunableLaw law = law_of(seed);
